@@ -1,0 +1,60 @@
+// Part of nonobtuse, MIT licence. Mesh files in and out, and the cleaning of what they hold.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nonobtuse/error.h"
+#include "nonobtuse/mesh.h"
+
+namespace nonobtuse {
+
+enum class FileFormat { Obj, Off, Ply, Stl };
+
+/// One kind of repair that was made, for the user to see.
+struct Repair {
+  std::string what;  ///< plural noun phrase: "polygons triangulated", "duplicate vertices welded"
+  Index count = 0;
+  Index first = -1;  ///< index (from 0) of the first element concerned, in the file's order
+};
+
+struct ReadResult {
+  TriangleMesh mesh;
+  FileFormat format = FileFormat::Obj;
+  std::vector<Repair> repairs;  ///< made while reading (polygons triangulated, STL corners welded)
+};
+
+/// Reads OBJ, OFF, PLY (ascii, binary of both byte orders) or STL (ascii, binary), told by content.
+/// Coordinates are doubles throughout. Only what the format itself demands is done: polygons are
+/// triangulated and the corners of an STL welded where they are equal; call `clean` for the rest.
+/// Throws IoError (file, line, what is wrong) and InvalidInput (indices out of range, coordinates
+/// that are not finite).
+ReadResult read_mesh(const std::string& path);
+
+struct WriteOptions {
+  bool binary = true;  ///< PLY and STL only; PLY is written in doubles
+};
+
+/// Writes by suffix (.obj .off .ply .stl), texts in the shortest form that reads back the same
+/// doubles. Writes to a temporary name beside `path` and renames: never half a file.
+/// Throws IoError.
+void write_mesh(const std::string& path, const TriangleMesh& mesh,
+                const WriteOptions& options = {});
+
+/// The coordinates as a reader of the written file sees them (binary STL holds floats).
+TriangleMesh as_written(const std::string& path, const TriangleMesh& mesh,
+                        const WriteOptions& options = {});
+
+struct CleanResult {
+  TriangleMesh mesh;
+  std::vector<Repair> repairs;
+};
+
+/// Makes a mesh fit for `remesh`: drops degenerate faces (repeated vertex or exactly no area) and
+/// unused vertices, turns faces that disagree with their neighbours. Reports each repair.
+/// Throws InvalidInput, with the element's index, for what cannot be mended: non-finite
+/// coordinates, indices out of range, an edge with three faces, a vertex where several fans meet,
+/// a surface that cannot be oriented, nothing but degenerate faces.
+CleanResult clean(const TriangleMesh& mesh);
+
+}  // namespace nonobtuse

@@ -1,0 +1,59 @@
+#include "mesh/surface.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace nonobtuse::mesh {
+
+std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>& triangles,
+                                                     Index vertex_count) {
+  // Half-edges bucketed by their smaller vertex: linear, and independent of hashing.
+  const Index count = vertex_count;
+  std::vector<std::size_t> start(count + 1, 0);
+  const auto lower = [](const Triangle& t, int k) { return std::min(t[next(k)], t[previous(k)]); };
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k) ++start[lower(t, k) + 1];
+  for (Index v = 0; v < count; ++v) start[v + 1] += start[v];
+  std::vector<std::pair<Index, int>> half_edges(start[count]);
+  std::vector<std::size_t> fill(start.begin(), start.end() - 1);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      half_edges[fill[lower(triangles[t], k)]++] = {static_cast<Index>(t), k};
+
+  std::vector<std::array<Index, 3>> adjacent(triangles.size(), {-1, -1, -1});
+  for (Index v = 0; v < count; ++v) {
+    for (std::size_t i = start[v]; i < start[v + 1]; ++i) {
+      const auto [t, k] = half_edges[i];
+      const Triangle& a = triangles[t];
+      for (std::size_t j = i + 1; j < start[v + 1]; ++j) {
+        const auto [u, l] = half_edges[j];
+        const Triangle& b = triangles[u];
+        const bool opposite = a[next(k)] == b[previous(l)] && a[previous(k)] == b[next(l)];
+        if (!opposite) continue;
+        adjacent[t][k] = u;
+        adjacent[u][l] = t;
+      }
+    }
+  }
+  return adjacent;
+}
+
+Surface make_surface(std::vector<Vec3> vertices, std::vector<Triangle> triangles) {
+  Surface s;
+  s.vertices = std::move(vertices);
+  s.triangles = std::move(triangles);
+  s.adjacent = triangle_adjacency(s.triangles, static_cast<Index>(s.vertices.size()));
+  s.areas.reserve(s.triangles.size());
+  s.normals.reserve(s.triangles.size());
+  for (const Triangle& t : s.triangles) {
+    const Vec3 a = area_vector(s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]);
+    const double twice = length(a);
+    s.areas.push_back(0.5 * twice);
+    s.normals.push_back(twice > 0 ? a / twice : Vec3{});
+    s.area += 0.5 * twice;
+  }
+  return s;
+}
+
+}  // namespace nonobtuse::mesh
