@@ -1,0 +1,48 @@
+// Progress and cancellation as the steps of the pipeline see them.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "nonobtuse/context.h"
+
+namespace nonobtuse::parallel {
+
+/// Maps the fraction of a stage to the fraction of the whole call and remembers a cancellation.
+/// Belongs to the calling thread; only `cancelled` may be asked from others.
+class Monitor {
+ public:
+  explicit Monitor(const Context& context) : context_(context) {}
+
+  /// A stage covers [from, to] of the whole call.
+  void begin_stage(std::string_view stage, double from, double to) {
+    stage_ = stage;
+    from_ = from;
+    to_ = to;
+    tick(0);
+  }
+
+  /// Reports; returns false once the call is cancelled, after which the step should return the
+  /// best valid state it has. Call it at least every 50 ms of work.
+  bool tick(double fraction_of_stage, long long obtuse = -1, std::string_view message = {}) {
+    const double f = from_ + (to_ - from_) * std::clamp(fraction_of_stage, 0.0, 1.0);
+    reported_ = std::max(reported_, f);
+    if (!stopped_ && context_.progress &&
+        !context_.progress(Progress{stage_, reported_, message, obtuse}))
+      stopped_ = true;
+    return !cancelled();
+  }
+
+  [[nodiscard]] bool cancelled() const { return stopped_ || context_.cancelled(); }
+
+ private:
+  const Context& context_;
+  std::string stage_;
+  double from_ = 0;
+  double to_ = 1;
+  double reported_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace nonobtuse::parallel
