@@ -37,16 +37,25 @@ class EditableMesh {
   /// Triangle across the edge of t opposite corner k; -1 at the boundary.
   [[nodiscard]] Index adjacent(Index t, int k) const { return adjacent_[t][k]; }
   /// Corner of t at vertex v; v must be in t.
-  [[nodiscard]] int corner_of(Index t, Index v) const;
+  [[nodiscard]] int corner_of(Index t, Index v) const {
+    const Triangle& c = triangles_[t];
+    return c[0] == v ? 0 : c[1] == v ? 1 : 2;
+  }
   /// The same edge named from the other side (invalid at the boundary).
-  [[nodiscard]] Edge twin(Edge e) const;
+  [[nodiscard]] Edge twin(Edge e) const {
+    const Index u = adjacent_[e.triangle][e.corner];
+    return u < 0 ? Edge{} : Edge{u, previous(corner_of(u, head(e)))};
+  }
   [[nodiscard]] Index opposite_vertex(Edge e) const { return triangles_[e.triangle][e.corner]; }
   [[nodiscard]] Index tail(Edge e) const { return triangles_[e.triangle][next(e.corner)]; }
   [[nodiscard]] Index head(Edge e) const { return triangles_[e.triangle][previous(e.corner)]; }
   /// Some triangle of v; for a boundary vertex the one from which walking counter-clockwise
   /// (across the edge opposite the corner `next(k)`) meets all the others.
   [[nodiscard]] Index triangle_of(Index v) const { return vertex_triangle_[v]; }
-  [[nodiscard]] bool on_boundary(Index v) const;
+  [[nodiscard]] bool on_boundary(Index v) const {
+    const Index t = vertex_triangle_[v];
+    return adjacent_[t][previous(corner_of(t, v))] < 0;
+  }
   [[nodiscard]] int valence(Index v) const { return valence_[v]; }  ///< number of neighbours
   /// Triangles around v, counter-clockwise (boundary: from the first to the last).
   void triangles_around(Index v, std::vector<Index>& out) const;
@@ -90,6 +99,16 @@ class EditableMesh {
   std::vector<int> valence_;
   Index vertex_count_ = 0;
   Index triangle_count_ = 0;
+
+  // Declares two names of one edge to be twins; one of them may be invalid (boundary).
+  void join(Edge e, Edge other);
+  // Sets triangle_of(v), starting the search at its triangle t.
+  void set_first_triangle(Index v, Index t);
+  // Removes triangle t, whose corner `apex` lies opposite a contracted edge, by joining the
+  // neighbours across its two other edges.
+  void close_up(Index t, int apex);
+  Index add_vertex(const Vec3& position, int valence);
+  Index add_triangle(const Triangle& corners);
 };
 
 }  // namespace nonobtuse::mesh
