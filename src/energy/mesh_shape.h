@@ -21,7 +21,9 @@ struct ShapeWeights {
 };
 
 /// Cosine of an angle in degrees.
-inline double cos_degrees(double degrees) { return std::cos(degrees * (3.14159265358979323846 / 180)); }
+inline double cos_degrees(double degrees) {
+  return std::cos(degrees * (3.14159265358979323846 / 180));
+}
 
 /// The hinge with the given weight that keeps angles inside [smallest, largest] degrees.
 inline ShapeWeights hinged(double weight, double smallest, double largest) {

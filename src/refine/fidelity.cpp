@@ -93,7 +93,7 @@ std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count) {
       if (s >= 1) s -= 1;
       if (t >= 1) t -= 1;
       const bool beyond = s + t > 1;
-      samples.push_back({facet_point(surface, f, beyond ? 1 - s : s, beyond ? 1 - t : t), step, f, -1});
+      samples.push_back({facet_point(surface, f, beyond ? 1 - s : s, beyond ? 1 - t : t), step, f});
     }
   }
   return samples;
@@ -122,46 +122,109 @@ void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Wo
     if (hit.triangle < 0) hit = bvh.closest(samples[s].point);
     found[s] = old[hit.triangle];
   });
-  sort_samples(found);
+  sort_samples(found, mesh.triangle_capacity());
+}
+
+Index Fidelity::walk_to_nearest(const mesh::EditableMesh& mesh, Index from, const Sample& sample,
+                                ClosestPoint& nearest) const {
+  const Vec3 normal = surface.normals[sample.facet];
+  return walk(
+      sample.point, from, nearest, [&](Index t) { return triangle_frame(mesh, t); },
+      [&](Index t, int k) { return mesh.adjacent(t, k); },
+      [&](Index t, int k, Index to) { return same_corner(mesh.triangles(), t, k, to); },
+      [&](Index t) { return dot(area_vector(corners(mesh, t)), normal) >= 0; });
 }
 
 void Fidelity::walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers) {
   std::vector<Index> found(samples.size());
-  const auto frame = [&](Index t) { return triangle_frame(mesh, t); };
-  const auto adjacent = [&](Index t, int k) { return mesh.adjacent(t, k); };
-  const auto corner = [&](Index from, int k, Index to) {
-    return same_corner(mesh.triangles(), from, k, to);
-  };
   workers.for_each(first.size(), kChunk, [&](std::size_t t) {
-    for (Index s = first[t]; s >= 0; s = samples[s].next) {
-      const Vec3 normal = surface.normals[samples[s].facet];
-      const auto agrees = [&](Index u) { return dot(area_vector(corners(mesh, u)), normal) >= 0; };
-      ClosestPoint nearest;
-      found[s] = walk(samples[s].point, static_cast<Index>(t), nearest, frame, adjacent, corner, agrees);
-    }
+    ClosestPoint nearest;
+    for (Index s = first[t]; s >= 0; s = samples[s].next)
+      found[s] = walk_to_nearest(mesh, static_cast<Index>(t), samples[s], nearest);
   });
-  first.resize(mesh.triangle_capacity(), -1);
-  sort_samples(found);
+  sort_samples(found, mesh.triangle_capacity());
+}
+
+void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles) {
+  std::vector<std::pair<Index, Index>> moves;  // sample, triangle
+  for (Index t : triangles) {
+    Index* link = &first[t];
+    while (*link >= 0) {
+      const Index s = *link;
+      ClosestPoint nearest;
+      const Index to = walk_to_nearest(mesh, t, samples[s], nearest);
+      if (to == t) {
+        link = &samples[s].next;
+      } else {
+        *link = samples[s].next;
+        moves.emplace_back(s, to);
+      }
+    }
+    update_triangle(mesh, t);
+  }
+  for (const auto& [s, to] : moves) {
+    samples[s].next = first[to];
+    first[to] = s;
+  }
+}
+
+Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
+                                       double growth, const parallel::Workers& workers) {
+  // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
+  std::vector<Index> start(surface.vertices.size(), -1);
+  std::vector<Sample> candidates;
+  std::vector<Index> nearest;
+  Index count = 0;
+  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
+    for (Index s = first[t]; s >= 0; s = samples[s].next)
+      if (samples[s].vertex >= 0) start[samples[s].vertex] = -2;
+  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
+    for (Index s = first[t]; s >= 0; s = samples[s].next) {
+      Sample& sample = samples[s];
+      if (sample.vertex >= 0) {
+        const std::array<Vec3, 3> p = corners(mesh, t);
+        const double d = TriangleFrame(p[0], p[1], p[2]).closest(sample.point).squared_distance;
+        if (d > far * far) sample.weight *= growth, ++count;
+        continue;
+      }
+      for (Index v : surface.triangles[sample.facet]) {
+        if (start[v] != -1) continue;
+        start[v] = t;
+        candidates.push_back({surface.vertices[v], weight, sample.facet, v});
+        nearest.push_back(t);
+      }
+    }
+  std::vector<char> is_far(candidates.size());
+  workers.for_each(candidates.size(), kChunk, [&](std::size_t i) {
+    ClosestPoint closest;
+    nearest[i] = walk_to_nearest(mesh, nearest[i], candidates[i], closest);
+    is_far[i] = closest.squared_distance > far * far;
+  });
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!is_far[i]) continue;
+    ++count;
+    candidates[i].next = first[nearest[i]];
+    first[nearest[i]] = static_cast<Index>(samples.size());
+    samples.push_back(candidates[i]);
+  }
+  return count;
 }
 
 // Counting sort: the samples of a triangle lie together in memory, in a fixed order.
-void Fidelity::sort_samples(const std::vector<Index>& triangle_of_sample) {
-  const Index triangles = triangle_of_sample.empty() && !first.empty()
-                              ? static_cast<Index>(first.size())
-                              : std::max(static_cast<Index>(first.size()), Index{0});
-  Index largest = triangles - 1;
-  for (Index t : triangle_of_sample) largest = std::max(largest, t);
-  std::vector<Index> start(largest + 2, 0);
+void Fidelity::sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles) {
+  std::vector<Index> start(triangles + 1, 0);
   for (Index t : triangle_of_sample) ++start[t + 1];
-  for (Index t = 0; t <= largest; ++t) start[t + 1] += start[t];
-  first.assign(largest + 1, -1);
+  for (Index t = 0; t < triangles; ++t) start[t + 1] += start[t];
   std::vector<Sample> sorted(samples.size());
   std::vector<Index> fill(start.begin(), start.end() - 1);
-  for (std::size_t s = 0; s < samples.size(); ++s) sorted[fill[triangle_of_sample[s]]++] = samples[s];
-  for (Index t = 0; t <= largest; ++t) {
+  for (std::size_t s = 0; s < samples.size(); ++s)
+    sorted[fill[triangle_of_sample[s]]++] = samples[s];
+  first.assign(triangles, -1);
+  for (Index t = 0; t < triangles; ++t) {
     if (start[t] == start[t + 1]) continue;
     first[t] = start[t];
-    for (Index s = start[t]; s < start[t + 1]; ++s) sorted[s].next = s + 1 < start[t + 1] ? s + 1 : -1;
+    for (Index s = start[t]; s < start[t + 1]; ++s)
+      sorted[s].next = s + 1 < start[t + 1] ? s + 1 : -1;
   }
   samples = std::move(sorted);
 }
@@ -197,7 +260,8 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
 
 TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const {
   TangentPlane result{foot, surface.normals[facet], facet};
-  // Where M is sharp the nearest point may lie on an edge or vertex with its facets turned far away.
+  // Where M is sharp the nearest point may lie on an edge or vertex with its facets turned far
+  // away.
   const Vec3 offset = p - foot;
   const double d = length(offset);
   if (d > 1e-6 && std::abs(dot(offset, result.normal)) < 0.5 * d) result.normal = offset / d;
@@ -257,7 +321,8 @@ void Fidelity::update_planes(const mesh::EditableMesh& mesh, const parallel::Wor
   centroid_planes.resize(mesh.triangle_capacity());
   centroid_weights.resize(mesh.triangle_capacity());
   workers.for_each(vertex_planes.size(), kChunk, [&](std::size_t v) {
-    if (mesh.alive_vertex(static_cast<Index>(v))) update_vertex(mesh, static_cast<Index>(v), search);
+    if (mesh.alive_vertex(static_cast<Index>(v)))
+      update_vertex(mesh, static_cast<Index>(v), search);
   });
   workers.for_each(centroid_planes.size(), kChunk, [&](std::size_t t) {
     if (mesh.alive_triangle(static_cast<Index>(t)))

@@ -23,6 +23,7 @@ struct Sample {
   Vec3 point;
   double weight = 0;  ///< area it stands for
   Index facet = -1;   ///< of M
+  Index vertex = -1;  ///< of M, if it is one
   Index next = -1;    ///< next sample of the same triangle of T, -1 at the end
 };
 
@@ -45,24 +46,31 @@ std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count);
 class Fidelity {
  public:
   /// Both must outlive this object.
-  Fidelity(const mesh::Surface& surface, const spatial::TriangleBvh& surface_bvh)
-      : surface(surface), surface_bvh(surface_bvh) {}
+  Fidelity(const mesh::Surface& of, const spatial::TriangleBvh& bvh_of)
+      : surface(of), surface_bvh(bvh_of) {}
 
   const mesh::Surface& surface;
   const spatial::TriangleBvh& surface_bvh;
   FidelityWeights weights;
   std::vector<Sample> samples;
-  std::vector<Index> first;                  ///< #T, head of each triangle's list of samples
-  std::vector<TangentPlane> vertex_planes;   ///< #V
-  std::vector<TangentPlane> centroid_planes; ///< #T
-  std::vector<double> vertex_weights;        ///< #V, frozen: ring area / 12
-  std::vector<double> centroid_weights;      ///< #T, frozen: 3/4 of the area
+  std::vector<Index> first;                   ///< #T, head of each triangle's list of samples
+  std::vector<TangentPlane> vertex_planes;    ///< #V
+  std::vector<TangentPlane> centroid_planes;  ///< #T
+  std::vector<double> vertex_weights;         ///< #V, frozen: ring area / 12
+  std::vector<double> centroid_weights;       ///< #T, frozen: 3/4 of the area
 
   /// Gives every sample to the nearest triangle that agrees with it, by search.
   void search_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same by walking over the mesh from the present triangle to nearer neighbours; sorts the
   /// samples by triangle.
   void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
+  /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
+  void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
+  /// samples of the given weight; of those added before, multiplies the weights by `growth` where
+  /// they are still far. Returns how many are far.
+  Index emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
+                               double growth, const parallel::Workers& workers);
   /// Gives the samples of these triangles to the nearest of them (after a local edit).
   void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Feet, tangent planes and weights of all vertices and centroids: by search where there is none
@@ -86,7 +94,9 @@ class Fidelity {
   [[nodiscard]] TangentPlane walk_foot(const Vec3& p, Index facet) const;
 
  private:
-  void sort_samples(const std::vector<Index>& triangle_of_sample);
+  [[nodiscard]] Index walk_to_nearest(const mesh::EditableMesh& mesh, Index from,
+                                      const Sample& sample, ClosestPoint& nearest) const;
+  void sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles);
   [[nodiscard]] TangentPlane plane(const Vec3& p, const Vec3& foot, Index facet) const;
 };
 

@@ -23,7 +23,11 @@ struct ClosestPoint {
 class TriangleFrame {
  public:
   TriangleFrame(const Vec3& p0, const Vec3& p1, const Vec3& p2)
-      : p0_(p0), e1_(p1 - p0), e2_(p2 - p0), d11_(dot(e1_, e1_)), d12_(dot(e1_, e2_)),
+      : p0_(p0),
+        e1_(p1 - p0),
+        e2_(p2 - p0),
+        d11_(dot(e1_, e1_)),
+        d12_(dot(e1_, e2_)),
         d22_(dot(e2_, e2_)) {
     const double det = d11_ * d22_ - d12_ * d12_;
     flat_ = !(det > 1e-14 * d11_ * d22_);
