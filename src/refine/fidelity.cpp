@@ -113,7 +113,7 @@ void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Wo
   const spatial::TriangleBvh bvh(mesh.positions, triangles, workers);
   std::vector<Index> found(samples.size());
   workers.for_each(samples.size(), kChunk, [&](std::size_t s) {
-    const Vec3 normal = surface.normals[samples[s].facet];
+    const Vec3 normal = surface().normals[samples[s].facet];
     const auto agrees = [&](Index t) {
       return dot(area_vector(corners(mesh, old[t])), normal) >= 0;
     };
@@ -127,7 +127,7 @@ void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Wo
 
 Index Fidelity::walk_to_nearest(const mesh::EditableMesh& mesh, Index from, const Sample& sample,
                                 ClosestPoint& nearest) const {
-  const Vec3 normal = surface.normals[sample.facet];
+  const Vec3 normal = surface().normals[sample.facet];
   return walk(
       sample.point, from, nearest, [&](Index t) { return triangle_frame(mesh, t); },
       [&](Index t, int k) { return mesh.adjacent(t, k); },
@@ -171,7 +171,7 @@ void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> tri
 Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
                                        double growth, const parallel::Workers& workers) {
   // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
-  std::vector<Index> start(surface.vertices.size(), -1);
+  std::vector<Index> start(surface().vertices.size(), -1);
   std::vector<Sample> candidates;
   std::vector<Index> nearest;
   Index count = 0;
@@ -187,10 +187,10 @@ Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double fa
         if (d > far * far) sample.weight *= growth, ++count;
         continue;
       }
-      for (Index v : surface.triangles[sample.facet]) {
+      for (Index v : surface().triangles[sample.facet]) {
         if (start[v] != -1) continue;
         start[v] = t;
-        candidates.push_back({surface.vertices[v], weight, sample.facet, v});
+        candidates.push_back({surface().vertices[v], weight, sample.facet, v});
         nearest.push_back(t);
       }
     }
@@ -242,7 +242,7 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
   }
   for (Index s = all; s >= 0;) {
     const Index following = samples[s].next;
-    const Vec3 normal = surface.normals[samples[s].facet];
+    const Vec3 normal = surface().normals[samples[s].facet];
     Index best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (Index t : triangles) {
@@ -259,7 +259,7 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
 }
 
 TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const {
-  TangentPlane result{foot, surface.normals[facet], facet};
+  TangentPlane result{foot, surface().normals[facet], facet};
   // Where M is sharp the nearest point may lie on an edge or vertex with its facets turned far
   // away.
   const Vec3 offset = p - foot;
@@ -269,21 +269,21 @@ TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const
 }
 
 TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal) const {
-  const auto agrees = [&](Index f) { return dot(surface.normals[f], normal) >= 0; };
-  auto hit = surface_bvh.closest_if(p, 4.0, agrees);
-  if (hit.triangle < 0) hit = surface_bvh.closest(p);
+  const auto agrees = [&](Index f) { return dot(surface().normals[f], normal) >= 0; };
+  auto hit = surface_bvh_->closest_if(p, 4.0, agrees);
+  if (hit.triangle < 0) hit = surface_bvh_->closest(p);
   return plane(p, hit.point, hit.triangle);
 }
 
 TangentPlane Fidelity::walk_foot(const Vec3& p, Index facet) const {
-  const auto frame = [&](Index f) { return facet_frame(surface, f); };
-  const auto adjacent = [&](Index f, int k) { return surface.adjacent[f][k]; };
+  const auto frame = [&](Index f) { return facet_frame(surface(), f); };
+  const auto adjacent = [&](Index f, int k) { return surface().adjacent[f][k]; };
   const auto corner = [&](Index from, int k, Index to) {
-    return same_corner(surface.triangles, from, k, to);
+    return same_corner(surface().triangles, from, k, to);
   };
   ClosestPoint nearest;
   const Index f = walk(p, facet, nearest, frame, adjacent, corner, [](Index) { return true; });
-  return plane(p, facet_point(surface, f, nearest.barycentric[1], nearest.barycentric[2]), f);
+  return plane(p, facet_point(surface(), f, nearest.barycentric[1], nearest.barycentric[2]), f);
 }
 
 void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool search) {
@@ -311,7 +311,7 @@ void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool sea
     return;
   }
   plane = walk_foot(centroid, plane.facet);
-  if (dot(surface.normals[plane.facet], normal) < 0) plane = search_foot(centroid, normal);
+  if (dot(surface().normals[plane.facet], normal) < 0) plane = search_foot(centroid, normal);
 }
 
 void Fidelity::update_planes(const mesh::EditableMesh& mesh, const parallel::Workers& workers,

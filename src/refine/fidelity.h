@@ -47,10 +47,11 @@ class Fidelity {
  public:
   /// Both must outlive this object.
   Fidelity(const mesh::Surface& of, const spatial::TriangleBvh& bvh_of)
-      : surface(of), surface_bvh(bvh_of) {}
+      : surface_(&of), surface_bvh_(&bvh_of) {}
 
-  const mesh::Surface& surface;
-  const spatial::TriangleBvh& surface_bvh;
+  [[nodiscard]] const mesh::Surface& surface() const { return *surface_; }
+  [[nodiscard]] const spatial::TriangleBvh& surface_bvh() const { return *surface_bvh_; }
+
   FidelityWeights weights;
   std::vector<Sample> samples;
   std::vector<Index> first;                   ///< #T, head of each triangle's list of samples
@@ -94,6 +95,9 @@ class Fidelity {
   [[nodiscard]] TangentPlane walk_foot(const Vec3& p, Index facet) const;
 
  private:
+  const mesh::Surface* surface_;
+  const spatial::TriangleBvh* surface_bvh_;
+
   [[nodiscard]] Index walk_to_nearest(const mesh::EditableMesh& mesh, Index from,
                                       const Sample& sample, ClosestPoint& nearest) const;
   void sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles);
