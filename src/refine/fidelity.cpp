@@ -168,6 +168,19 @@ void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> tri
   }
 }
 
+void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth) {
+  const auto emphasize = [&](TangentPlane& plane, const Vec3& p) {
+    if (squared_distance(p, plane.point) > far * far) plane.emphasis *= growth;
+  };
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
+    if (mesh.alive_vertex(v)) emphasize(vertex_planes[v], mesh.positions[v]);
+  for (Index t = 0; t < mesh.triangle_capacity(); ++t) {
+    if (!mesh.alive_triangle(t)) continue;
+    const std::array<Vec3, 3> p = corners(mesh, t);
+    emphasize(centroid_planes[t], (p[0] + p[1] + p[2]) / 3);
+  }
+}
+
 Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
                                        double growth, const parallel::Workers& workers) {
   // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
@@ -259,12 +272,12 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
 }
 
 TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const {
-  TangentPlane result{foot, surface().normals[facet], facet};
+  TangentPlane result{1, foot, surface().normals[facet], facet};
   // Where M is sharp the nearest point may lie on an edge or vertex with its facets turned far
   // away.
   const Vec3 offset = p - foot;
   const double d = length(offset);
-  if (d > 1e-6 && std::abs(dot(offset, result.normal)) < 0.5 * d) result.normal = offset / d;
+  if (d > 1e-6 && std::abs(dot(offset, result.normal)) < 0.9 * d) result.normal = offset / d;
   return result;
 }
 
@@ -295,23 +308,25 @@ void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool searc
     normal += a;
     weight += length(a) / 24;
   });
-  vertex_weights[v] = weight;
+  const double emphasis = plane.emphasis;
+  vertex_weights[v] = emphasis * weight;
   plane = search || plane.facet < 0 ? search_foot(mesh.positions[v], normal)
                                     : walk_foot(mesh.positions[v], plane.facet);
+  plane.emphasis = emphasis;
 }
 
 void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool search) {
   const std::array<Vec3, 3> p = corners(mesh, t);
   const Vec3 normal = area_vector(p);
   const Vec3 centroid = (p[0] + p[1] + p[2]) / 3;
-  centroid_weights[t] = 0.375 * length(normal);
   TangentPlane& plane = centroid_planes[t];
-  if (search || plane.facet < 0) {
+  const double emphasis = plane.emphasis;
+  centroid_weights[t] = 0.375 * emphasis * length(normal);
+  const Index facet = plane.facet;
+  if (facet >= 0 && !search) plane = walk_foot(centroid, facet);
+  if (facet < 0 || search || dot(surface().normals[plane.facet], normal) < 0)
     plane = search_foot(centroid, normal);
-    return;
-  }
-  plane = walk_foot(centroid, plane.facet);
-  if (dot(surface().normals[plane.facet], normal) < 0) plane = search_foot(centroid, normal);
+  plane.emphasis = emphasis;
 }
 
 void Fidelity::update_planes(const mesh::EditableMesh& mesh, const parallel::Workers& workers,

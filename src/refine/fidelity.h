@@ -29,6 +29,7 @@ struct Sample {
 
 /// Tangent plane of M under a point of T.
 struct TangentPlane {
+  double emphasis = 1;  ///< factor of the weight, see emphasize_far_points
   Vec3 point;   ///< foot of the point
   Vec3 normal;  ///< unit: the facet's, or the offset's direction where M is sharp
   Index facet = -1;
@@ -67,6 +68,9 @@ class Fidelity {
   void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
   void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Points of T that stick out: multiplies by `growth` the weights of vertices and centroids
+  /// farther than `far` from their tangent planes.
+  void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);
   /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
   /// samples of the given weight; of those added before, multiplies the weights by `growth` where
   /// they are still far. Returns how many are far.

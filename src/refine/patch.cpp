@@ -174,9 +174,6 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
     for (Index v : whole.triangle(t)) vertex.push_back(v);
   sort_unique(vertex);
 
-  const auto local = [&](Index v) {
-    return static_cast<Index>(std::lower_bound(vertex.begin(), vertex.end(), v) - vertex.begin());
-  };
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
   for (Index v : vertex) positions.push_back(whole.positions[v]);
@@ -206,6 +203,10 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
     boundary_.push_back(whole.on_boundary(v));
     inner_.push_back(std::binary_search(core.begin(), core.end(), v));
   }
+}
+
+Index Patch::local(Index v) const {
+  return static_cast<Index>(std::lower_bound(vertex.begin(), vertex.end(), v) - vertex.begin());
 }
 
 int Patch::total_defect() const {

@@ -52,6 +52,8 @@ class Patch {
   std::vector<Index> triangle;  ///< local -> global, of the triangles copied
   std::vector<Edit> edits;      ///< done so far, in local vertices
 
+  /// Local index of a global vertex of the patch, before any edits.
+  [[nodiscard]] Index local(Index global) const;
   /// Valence of local vertex v in the whole mesh.
   [[nodiscard]] int valence(Index v) const { return mesh.valence(v) + hidden_[v]; }
   /// Whether v is on the boundary of the whole mesh.

@@ -122,4 +122,30 @@ std::vector<std::vector<Edit>> search_balancing_edits(const Patch& patch, Index 
   return found.best();
 }
 
+std::vector<std::vector<Edit>> search_neutral_flips(const Patch& patch, const Triangle& around,
+                                                    int solutions) {
+  Search found(patch.total_defect(), solutions);
+  std::vector<Edit> edits;
+  for (Index v : around)
+    for_ring(patch.mesh, v, [&](Index t, int k) {
+      const Triangle& c = patch.mesh.triangle(t);
+      edits.push_back({Edit::Kind::Flip, v, c[mesh::next(k)]});
+      edits.push_back({Edit::Kind::Flip, c[mesh::next(k)], c[mesh::previous(k)]});
+    });
+  for (Edit& e : edits)
+    if (e.a > e.b) std::swap(e.a, e.b);
+  const auto key = [](const Edit& e) { return std::pair(e.a, e.b); };
+  std::sort(edits.begin(), edits.end(), [&](auto& a, auto& b) { return key(a) < key(b); });
+  edits.erase(std::unique(edits.begin(), edits.end(),
+                          [&](auto& a, auto& b) { return key(a) == key(b); }),
+              edits.end());
+  for (const Edit& edit : edits) {
+    if (!patch.possible(edit)) continue;
+    Patch next = patch;
+    next.apply(edit);
+    found.descend(next, 1);
+  }
+  return found.best();
+}
+
 }  // namespace nonobtuse::refine

@@ -14,8 +14,7 @@ struct ValenceSearch {
   int net = 0;         ///< change of the number of vertices: 0, -1 (collapse) or +1 (split)
 };
 
-/// Copies of `patch` after sequences of edits that lower its total defect, the most regular first.
-/// Connectivity only: samples are not handed on, positions are untouched.
+/// Sequences of edits on `patch` that lower its total defect, the most regular first.
 std::vector<std::vector<Edit>> search_valence_edits(const Patch& patch, Index bad_vertex,
                                                     const ValenceSearch& search);
 
@@ -23,5 +22,10 @@ std::vector<std::vector<Edit>> search_valence_edits(const Patch& patch, Index ba
 /// the total defect.
 std::vector<std::vector<Edit>> search_balancing_edits(const Patch& patch, Index place, int net,
                                                       int solutions);
+
+/// Flips around a triangle (of local vertices), with up to one more to restore the valences, that
+/// do not raise the total defect.
+std::vector<std::vector<Edit>> search_neutral_flips(const Patch& patch, const Triangle& around,
+                                                    int solutions);
 
 }  // namespace nonobtuse::refine

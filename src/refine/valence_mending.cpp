@@ -24,7 +24,7 @@ class Mender {
 
   bool by_flips(Index v, const Effort& effort) {
     const Patch patch = patch_around(v, effort.rings);
-    return commit_best(patch, search_valence_edits(patch, v, {effort.flips, 12, 0}));
+    return commit_best(patch, search_valence_edits(patch, patch.local(v), {effort.flips, 12, 0}));
   }
 
   bool by_pair(Index v, const Effort& effort) {
@@ -32,7 +32,7 @@ class Mender {
     const mesh::EditableMesh mesh_before = mesh_;
     const Fidelity fidelity_before = fidelity_;
     const Patch patch = patch_around(v, effort.rings);
-    const auto sequences = search_valence_edits(patch, v, {effort.flips, 12, net});
+    const auto sequences = search_valence_edits(patch, patch.local(v), {effort.flips, 12, net});
     if (commit_best(patch, sequences)) {
       if (balance_count(mesh_, fidelity_, -net, options_, workers_)) return true;
       mesh_ = mesh_before;
@@ -122,7 +122,7 @@ bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
     ensure_planes(mesh, fidelity, v, 4);
     const std::array<Index, 1> center{v};
     const Patch patch(mesh, fidelity, center, 3);
-    const auto sequences = search_balancing_edits(patch, v, net, 6);
+    const auto sequences = search_balancing_edits(patch, patch.local(v), net, 6);
     PatchScore after;
     std::optional<Patch> best = best_of(patch, sequences, options, workers, after);
     if (!best) continue;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "refine/angle_goal.h"
 #include "refine/angle_sweeps.h"
@@ -34,6 +35,7 @@ class Refinement {
         bvh_(surface.vertices, surface.triangles, workers),
         fidelity_(surface, bvh_),
         descent_(mesh, fidelity_, options.on_surface, workers) {
+    if (getenv("WF")) fidelity_.weights = {atof(getenv("WF")), atof(getenv("WB"))};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
     fidelity_.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
     fidelity_.search_samples(mesh, workers);
@@ -43,15 +45,18 @@ class Refinement {
   Index run() {
     const double lo = options_.min_angle, hi = options_.max_angle;
     // First wide open, so that shape and fidelity find their balance; then two degrees inside.
-    descend(14, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
+    const int mult = getenv("MULT") ? atoi(getenv("MULT")) : 1;
+    descend(14*mult, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
     const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
     for (int round = 0; round < 3; ++round) {
-      const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
+            const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
+if(!getenv("NOP"))      fidelity_.emphasize_far_points(mesh_, far, kFarGrowth);
       fidelity_.emphasize_far_vertices(mesh_, far, kFarWeight, kFarGrowth, workers_);
-      descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
+      descend(8*mult, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }
+    const auto keep_going = [&](double f) { return tick(0.75 + 0.25 * f); };
     return refine::sweep_angles(mesh_, fidelity_, {lo, hi}, options_.on_surface, workers_,
-                                [&](double f) { return tick(0.75 + 0.25 * f); });
+                                keep_going);
   }
 
  private:

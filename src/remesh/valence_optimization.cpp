@@ -7,15 +7,21 @@
 #include "refine/valence_mending.h"
 
 namespace nonobtuse::remesh {
+namespace {
+
+constexpr Index kSamplesPerVertex = 3;
+
+}  // namespace
 
 Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
                        const parallel::Workers& workers, parallel::Monitor& monitor) {
   const auto initial = static_cast<double>(refine::bad_valences(mesh).size());
   if (initial == 0) return 0;
   const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
-  // No samples: vertices are only held to the surface. Planes are searched where edits happen.
+  // Few samples are enough to hold tips and ridges. Planes are searched where edits happen.
   refine::Fidelity fidelity(surface, bvh);
-  fidelity.first.assign(mesh.triangle_capacity(), -1);
+  fidelity.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
+  fidelity.search_samples(mesh, workers);
   fidelity.vertex_planes.resize(mesh.vertex_capacity());
   fidelity.vertex_weights.resize(mesh.vertex_capacity());
   fidelity.centroid_planes.resize(mesh.triangle_capacity());
