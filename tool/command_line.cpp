@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <string_view>
 #include <vector>
 
@@ -96,6 +95,13 @@ void set_edge_length(const std::string& text, RemeshOptions& options) {
   }
 }
 
+Method parse_method(const std::string& text) {
+  if (text == "default") return Method::Default;
+  if (text == "cvt") return Method::Cvt;
+  if (text == "cvt-nob") return Method::CvtNob;
+  throw UsageError(fmt::format("--method must be default, cvt or cvt-nob, not '{}'", text));
+}
+
 void add_output(CLI::App& command, OutputOptions& output) {
   command.add_option("-o,--output", output.path, "File to write: .obj, .off, .ply or .stl")
       ->required()
@@ -114,6 +120,7 @@ void add_threads(CLI::App& command, int& threads) {
 struct Draft {
   RemeshCommand remesh;
   std::string edge_length;
+  std::string method = "default";
   MeasureCommand measure;
   CertifyCommand certify;
   ConvertCommand convert;
@@ -138,15 +145,11 @@ void add_remesh(CLI::App& app, Draft& draft) {
       ->excludes(vertices)
       ->type_name("L");
   command
-      .add_option("--method", c.options.method,
+      .add_option("--method", draft.method,
                   "default: CVT, then refinement on the mesh; cvt: CVT alone; cvt-nob: with the "
                   "short-dual penalty of Yan & Wonka 2016")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Method>{
-              {"default", Method::Default}, {"cvt", Method::Cvt}, {"cvt-nob", Method::CvtNob}},
-          CLI::ignore_case))
       ->type_name("default|cvt|cvt-nob")
-      ->default_str("default");
+      ->capture_default_str();
   command.add_option("--penalty", c.options.penalty, "Weight lambda of the penalty of cvt-nob")
       ->check(CLI::NonNegativeNumber)
       ->type_name("LAMBDA")
@@ -247,6 +250,7 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
   if (app.got_subcommand("remesh")) {
     RemeshOptions& options = draft.remesh.options;
     set_edge_length(draft.edge_length, options);
+    options.method = parse_method(draft.method);
     check_bounds(options.min_angle, options.max_angle);
     if (options.min_angle >= 60) throw UsageError("--min-angle must be below 60");
     check_output(draft.remesh.output);

@@ -39,12 +39,13 @@ int fail(int code, std::string text) {
   return code;
 }
 
+// The library's sentence names the least number already; if not, it is added.
 std::string with_least(const TooFewVertices& error) {
   std::string text = error.what();
   const std::string least = std::to_string(error.least());
-  if (error.least() > 0 && text.find(least) == std::string::npos)
-    text += " The least number reached is " + least + ".";
-  return text;
+  if (error.least() <= 0 || text.find(least) != std::string::npos) return text;
+  if (!text.empty() && text.back() == '.') text.pop_back();
+  return text + " (the least number reached is " + least + ")";
 }
 
 }  // namespace

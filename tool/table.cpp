@@ -60,7 +60,8 @@ std::vector<Index> worst_triangles(const Certificate& certificate, Index count) 
 
 std::string quality_table(const std::vector<Column>& columns) {
   const auto count = [](auto value) { return fmt::format("{}", value); };
-  std::string text = row("", columns, [](const Column& c) { return c.title; });
+  std::string text;
+  if (columns.size() > 1) text = row("", columns, [](const Column& c) { return c.title; });
   text += row("vertices", columns, [&](const Column& c) { return count(c.vertices); });
   text += row("triangles", columns, [&](const Column& c) { return count(c.angles.triangles); });
   text += row("obtuse triangles", columns, [&](const Column& c) { return count(c.angles.obtuse); });

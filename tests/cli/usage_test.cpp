@@ -78,6 +78,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ThreadsNegative", {"in.obj", "-o", "o.obj", "--threads", "-1"}, "--threads"},
         Mistake{
             "ResolutionTooSmall", {"sample", "-o", "o.obj", "--resolution", "3"}, "--resolution"}),
-    [](const testing::TestParamInfo<Mistake>& info) { return std::string(info.param.name); });
+    [](const testing::TestParamInfo<Mistake>& mistake) { return std::string(mistake.param.name); });
 
 }  // namespace
