@@ -7,7 +7,7 @@
 #include "numeric/vec3.h"
 #include "spatial/triangle_bvh.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 namespace {
 
@@ -52,4 +52,4 @@ void certify_result(const NormalizedInput& input, const mesh::EditableMesh& mesh
   result.status = result.goal.certified ? Status::Converged : Status::AnglesRemain;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -8,7 +8,7 @@
 #include "parallel/workers.h"
 #include "remesh/normalization.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 /// Fills mesh, certificates, angles, source_triangle and barycentric of a result, and its status
 /// (Converged or AnglesRemain). The certificates speak of the input coordinates as returned.
@@ -16,4 +16,4 @@ void certify_result(const NormalizedInput& input, const mesh::EditableMesh& mesh
                     const RemeshOptions& options, const parallel::Workers& workers,
                     RemeshResult& result);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -8,7 +8,7 @@
 #include "nonobtuse/error.h"
 #include "numeric/vec3.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 namespace {
 
@@ -61,4 +61,4 @@ NormalizedInput normalize(const TriangleMesh& input, Index sites) {
   return {mesh::make_surface(mapped(input.vertices, map), input.triangles), map};
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -4,7 +4,7 @@
 #include "mesh/surface.h"
 #include "nonobtuse/mesh.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 struct NormalizedInput {
   mesh::Surface surface;
@@ -18,4 +18,4 @@ NormalizedInput normalize(const TriangleMesh& input, Index sites);
 /// Sum of the triangles' areas in input units, without over- or underflow on the way.
 double surface_area(const TriangleMesh& input);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

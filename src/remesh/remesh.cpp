@@ -45,31 +45,32 @@ auto run_stage(const char* name, double from, double to, parallel::Monitor& moni
 
 RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
                     const Context& context) {
-  remesh::check_options(options);
-  remesh::check_input(input);
-  const Index n = remesh::vertex_budget(input, options);
+  pipeline::check_options(options);
+  pipeline::check_input(input);
+  const Index n = pipeline::vertex_budget(input, options);
   const parallel::Workers workers(context.threads);
   parallel::Monitor monitor(context);
   RemeshResult result;
 
-  const remesh::NormalizedInput normalized = remesh::normalize(input, n);
+  const pipeline::NormalizedInput normalized = pipeline::normalize(input, n);
   const mesh::Surface& surface = normalized.surface;
   std::vector<Vec3> sites = run_stage("cvt", 0, 0.4, monitor, result, [&] {
-    return remesh::optimize_cvt(surface, {.sites = n, .seed = options.seed}, workers, monitor);
+    return pipeline::optimize_cvt(surface, {.sites = n, .seed = options.seed}, workers, monitor);
   });
-  remesh::Extraction extraction = run_stage("extraction", 0.4, 0.5, monitor, result, [&] {
-    return remesh::extract(surface, std::move(sites), workers, monitor);
+  pipeline::Extraction extraction = run_stage("extraction", 0.4, 0.5, monitor, result, [&] {
+    return pipeline::extract(surface, std::move(sites), workers, monitor);
   });
   mesh::EditableMesh& mesh = extraction.mesh;
   if (options.method == Method::Default) {
     run_stage("valence", 0.5, 0.55, monitor, result,
-              [&] { return remesh::optimize_valence(surface, mesh, workers, monitor); });
+              [&] { return pipeline::optimize_valence(surface, mesh, workers, monitor); });
     run_stage("refinement", 0.55, 0.95, monitor, result, [&] {
-      return remesh::refine(surface, mesh, remesh::refinement_options(options), workers, monitor);
+      return pipeline::refine(surface, mesh, pipeline::refinement_options(options), workers,
+                              monitor);
     });
   }
   run_stage("certification", 0.95, 1, monitor, result, [&] {
-    remesh::certify_result(normalized, mesh, options, workers, result);
+    pipeline::certify_result(normalized, mesh, options, workers, result);
     return 0;
   });
   if (monitor.cancelled()) result.status = Status::Cancelled;

@@ -11,7 +11,7 @@
 #include "numeric/vec3.h"
 #include "remesh/normalization.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 namespace {
 
@@ -86,4 +86,4 @@ RefinementOptions refinement_options(const RemeshOptions& options) {
           .on_surface = options.on_surface};
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

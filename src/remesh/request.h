@@ -5,7 +5,7 @@
 #include "nonobtuse/options.h"
 #include "remesh/refinement.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 /// Throws InvalidInput, naming the option, for values out of range or options that exclude each
 /// other.
@@ -21,4 +21,4 @@ Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options);
 
 RefinementOptions refinement_options(const RemeshOptions& options);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline
