@@ -14,7 +14,7 @@
 #include "refine/flips.h"
 #include "refine/global_descent.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 namespace {
 
 constexpr Index kSamplesPerVertex = 8;
@@ -99,4 +99,4 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   return Refinement(surface, mesh, options, workers, monitor).run();
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -6,7 +6,7 @@
 #include "refine/angle_goal.h"
 #include "refine/valence_mending.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 namespace {
 
 constexpr Index kSamplesPerVertex = 3;
@@ -38,4 +38,4 @@ Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   return left;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline
