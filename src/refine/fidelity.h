@@ -30,8 +30,8 @@ struct Sample {
 /// Tangent plane of M under a point of T.
 struct TangentPlane {
   double emphasis = 1;  ///< factor of the weight, see emphasize_far_points
-  Vec3 point;   ///< foot of the point
-  Vec3 normal;  ///< unit: the facet's, or the offset's direction where M is sharp
+  Vec3 point;           ///< foot of the point
+  Vec3 normal;          ///< unit: the facet's, or the offset's direction where M is sharp
   Index facet = -1;
 };
 

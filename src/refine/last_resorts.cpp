@@ -27,7 +27,8 @@ class TriangleMender {
 
   bool by_flips(Index t) {
     const Patch patch(mesh_, fidelity_, mesh_.triangle(t), kRings);
-    std::vector<std::vector<Edit>> sequences = search_neutral_flips(patch, local(patch, t), kSequences);
+    std::vector<std::vector<Edit>> sequences =
+        search_neutral_flips(patch, local(patch, t), kSequences);
     sequences.insert(sequences.begin(), std::vector<Edit>{});
     return commit_if_better(patch, sequences);
   }

@@ -13,7 +13,7 @@ struct TrialOptions {
   energy::ShapeWeights shape;  ///< to relax and to compare by
   AngleGoal promise = kPromise;
   AngleGoal goal;
-  int passes = 6;           ///< Gauss-Seidel passes over the patch, twice
+  int passes = 6;  ///< Gauss-Seidel passes over the patch, twice
   bool on_surface = false;
 };
 

@@ -43,8 +43,8 @@ class Search {
   void descend(const Patch& patch, int flips) {
     const int defect = patch.total_defect();
     if (defect <= target_) {
-      found_.push_back({irregularity(patch) + 0.1 * static_cast<double>(patch.edits.size()),
-                        patch.edits});
+      found_.push_back(
+          {irregularity(patch) + 0.1 * static_cast<double>(patch.edits.size()), patch.edits});
       return;
     }
     // Every flip mends at most four units.
@@ -98,7 +98,8 @@ std::vector<std::vector<Edit>> search_valence_edits(const Patch& patch, Index ba
   const int defect = patch.total_defect();
   Search found(defect - 1, search.solutions);
   if (search.net == 0) {
-    for (int flips = 1; flips <= search.flips && found.empty(); ++flips) found.descend(patch, flips);
+    for (int flips = 1; flips <= search.flips && found.empty(); ++flips)
+      found.descend(patch, flips);
     return found.best();
   }
   for (const Edit& edit : count_edits(patch, bad_vertex, search.net)) {
@@ -136,9 +137,9 @@ std::vector<std::vector<Edit>> search_neutral_flips(const Patch& patch, const Tr
     if (e.a > e.b) std::swap(e.a, e.b);
   const auto key = [](const Edit& e) { return std::pair(e.a, e.b); };
   std::sort(edits.begin(), edits.end(), [&](auto& a, auto& b) { return key(a) < key(b); });
-  edits.erase(std::unique(edits.begin(), edits.end(),
-                          [&](auto& a, auto& b) { return key(a) == key(b); }),
-              edits.end());
+  edits.erase(
+      std::unique(edits.begin(), edits.end(), [&](auto& a, auto& b) { return key(a) == key(b); }),
+      edits.end());
   for (const Edit& edit : edits) {
     if (!patch.possible(edit)) continue;
     Patch next = patch;

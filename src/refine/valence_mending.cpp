@@ -54,8 +54,7 @@ class Mender {
     if (!best) return false;
     const PatchScore before = score(patch, options_);
     if (after.folded > before.folded || after.bad_valence >= before.bad_valence ||
-        !std::isfinite(after.energy) ||
-        (strict_ && after.outside_promise > before.outside_promise))
+        !std::isfinite(after.energy) || (strict_ && after.outside_promise > before.outside_promise))
       return false;
     best->commit(mesh_, fidelity_);
     return true;
