@@ -142,17 +142,17 @@ void CellEvaluator::find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratc
     if (first) {
       hint = grid_.nearest((corners[0] + corners[1] + corners[2]) / 3, hint);
       scratch.base[p] = hint;
-      scratch.radius[p] = farthest_corner(corners, sites[hint]);
+      scratch.radius[p] = std::sqrt(farthest_corner2(corners, sites[hint]));
     } else {
       double least = std::numeric_limits<double>::infinity();
       for (Index e = chunk.start[p]; e < chunk.start[p + 1]; ++e) {
         const Index site = chunk.table[chunk.entries[e]];
-        const double r = farthest_corner(corners, sites[site]);
-        if (r >= least) continue;
-        least = r;
+        const double r2 = farthest_corner2(corners, sites[site]);
+        if (r2 >= least) continue;
+        least = r2;
         scratch.base[p] = site;
       }
-      scratch.radius[p] = least;
+      scratch.radius[p] = std::sqrt(least);
     }
     largest = std::max(largest, scratch.radius[p]);
     ++chunk.relisted;
@@ -240,9 +240,8 @@ void CellEvaluator::integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch
       scratch.distances.resize(count);
       scratch.moments.resize(count);
       for (Index k = 0; k < count; ++k) scratch.distances[k] = distances(k);
-      scratch.clipper.clip(scratch.distances, scratch.moments);
-      for (Index k = 0; k < count; ++k)
-        if (scratch.moments[k] != Moments{}) add(k, scratch.distances[k], scratch.moments[k]);
+      for (const Index k : scratch.clipper.clip(scratch.distances, scratch.moments))
+        add(k, scratch.distances[k], scratch.moments[k]);
     }
   }
   chunk.energy = energy;
