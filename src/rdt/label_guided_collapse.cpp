@@ -34,7 +34,8 @@ class GuidedCollapse {
   }
 
   CollapsedMesh run() {
-    refine(kResolution * std::sqrt(2 / std::sqrt(3.0) * surface_.area / sites_.size()));
+    refine(kResolution *
+           std::sqrt(2 / std::sqrt(3.0) * surface_.area / static_cast<double>(sites_.size())));
     insert_sites();
     flood();
     move_to_boundary();
