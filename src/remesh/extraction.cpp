@@ -12,7 +12,7 @@
 #include "rvd/restricted_voronoi.h"
 #include "spatial/closest_point.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 namespace {
 
@@ -118,4 +118,4 @@ Extraction extract(const mesh::Surface& surface, std::vector<Vec3> sites,
   return result;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline
