@@ -9,7 +9,7 @@
 namespace nonobtuse::refine {
 namespace {
 
-constexpr int kRounds = 4;  // of last resorts
+constexpr int kRounds = 3;  // of last resorts
 constexpr int kSweeps = 20;
 constexpr int kPatience = 3;  // sweeps without fewer triangles outside
 constexpr double kHinge = 100;
@@ -49,13 +49,6 @@ std::vector<Index> triangles_of(const mesh::EditableMesh& mesh,
 
 namespace {
 
-using Counts = std::pair<std::size_t, std::size_t>;  // outside the promise, outside the goal
-
-Counts count_outside(const mesh::EditableMesh& mesh, const AngleGoal& goal) {
-  return {triangles_outside(mesh, AngleTest(kPromise)).size(),
-          triangles_outside(mesh, AngleTest(goal)).size()};
-}
-
 // Relaxes and flips until no triangle is outside `aim` or patience ends; while nothing helps the
 // hinge grows.
 void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
@@ -88,23 +81,21 @@ Index sweep_angles(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal
   options.shape = energy::hinged(kHinge, goal.smallest + 3, goal.largest - 3);
   sweep(mesh, fidelity, {goal.smallest + 2, goal.largest - 2}, options, 1, workers,
         [&](double f) { return keep_going(0.4 * f); });
-  // What is still outside the goal itself may cost some fidelity.
-  options.shape = energy::hinged(kHinge, goal.smallest + 1, goal.largest - 1);
-  sweep(mesh, fidelity, goal, options, 3, workers,
-        [&](double f) { return keep_going(0.4 + 0.1 * f); });
   const AngleTest test(goal);
   TrialOptions trial;
   trial.goal = goal;
-  trial.shape = energy::hinged(kHinge, goal.smallest + 2, goal.largest - 2);
+  trial.shape = options.shape = energy::hinged(kHinge, goal.smallest + 1, goal.largest - 1);
   trial.on_surface = on_surface;
+  // What is still outside the goal itself may cost some fidelity, then other connectivity.
   for (int round = 0; round < kRounds; ++round) {
+    sweep(mesh, fidelity, goal, options, 3, workers,
+          [&](double f) { return keep_going(0.4 + 0.2 * round + 0.1 * f); });
     const std::vector<Index> bad = triangles_outside(mesh, test);
-    if (bad.empty()) return 0;
-    const Counts before = count_outside(mesh, goal);
+    if (bad.empty()) break;
     if (mend_triangles(mesh, fidelity, bad, trial, workers,
-                       [&] { return keep_going(0.5 + 0.1 * round); }) == 0)
+                       [&] { return keep_going(0.5 + 0.2 * round); }) == 0 && round > 0)
       break;
-    if (!(count_outside(mesh, goal) < before)) break;
+    trial.shape.hinge *= 10;
   }
   return static_cast<Index>(triangles_outside(mesh, test).size());
 }

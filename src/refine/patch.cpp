@@ -156,7 +156,7 @@ bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t
     const Index facet = fidelity.vertex_planes[v].facet;
     against += facet >= 0 && dot(fidelity.surface().normals[facet], normal) < 0;
   }
-  if (against >= 2) return true;
+  if (against == 3) return true;
   for (int k = 0; k < 3; ++k) {
     const Index u = mesh.adjacent(t, k);
     if (u >= 0 && dot(normalized(area_vector(corners(mesh, u))), normal) < -0.5) return true;

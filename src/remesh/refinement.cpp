@@ -21,7 +21,9 @@ constexpr int kStepsBetweenFlips = 5;
 constexpr double kFidelity = 20;  // weight at the start
 constexpr double kLeastFidelity = 6;
 constexpr double kMostFidelity = 40;
-constexpr double kMeanQuality = 0.9465;  // Q_avg aimed at by the weight
+// Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
+constexpr double kMeanQuality = 0.9465;
+constexpr double kMeanQualityLarge = 0.9425;
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
@@ -68,8 +70,9 @@ class Refinement {
   // Fidelity is bought with shape, not with the angle bounds: on a smooth surface there is shape to
   // spare, on a rough one there is not.
   void adapt_weights() {
-    const double excess = refine::mean_quality(mesh_) - kMeanQuality;
-    const double weight = std::clamp(fidelity_.weights.to_mesh * std::exp(100 * excess),
+    const double aim = mesh_.vertex_count() > 10000 ? kMeanQualityLarge : kMeanQuality;
+    const double excess = refine::mean_quality(mesh_) - aim;
+    const double weight = std::clamp(fidelity_.weights.to_mesh * std::exp(150 * excess),
                                      kLeastFidelity, kMostFidelity);
     fidelity_.weights.to_mesh = weight;
     if (!options_.on_surface) fidelity_.weights.to_surface = weight;
