@@ -4,6 +4,7 @@
 
 #include "refine/flips.h"
 #include "refine/last_resorts.h"
+#include "refine/neighborhood.h"
 #include "refine/relaxation.h"
 
 namespace nonobtuse::refine {
@@ -13,41 +14,6 @@ constexpr int kRounds = 3;  // of last resorts
 constexpr int kSweeps = 20;
 constexpr int kPatience = 3;  // sweeps without fewer triangles outside
 constexpr double kHinge = 100;
-
-// Vertices of the triangles and of `rings` rings around them, by index.
-std::vector<Index> dilated(const mesh::EditableMesh& mesh, const std::vector<Index>& triangles,
-                           int rings) {
-  std::vector<Index> vertices;
-  for (Index t : triangles)
-    for (Index v : mesh.triangle(t)) vertices.push_back(v);
-  const auto make_unique = [&] {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  };
-  make_unique();
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t count = vertices.size();
-    for (std::size_t i = 0; i < count; ++i)
-      for_ring(mesh, vertices[i], [&](Index t, int) {
-        for (Index v : mesh.triangle(t)) vertices.push_back(v);
-      });
-    make_unique();
-  }
-  return vertices;
-}
-
-std::vector<Index> triangles_of(const mesh::EditableMesh& mesh,
-                                const std::vector<Index>& vertices) {
-  std::vector<Index> triangles;
-  for (Index v : vertices) for_ring(mesh, v, [&](Index t, int) { triangles.push_back(t); });
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  return triangles;
-}
-
-}  // namespace
-
-namespace {
 
 // Relaxes and flips until no triangle is outside `aim` or patience ends; while nothing helps the
 // hinge grows.
@@ -61,7 +27,7 @@ void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
     if (!keep_going(static_cast<double>(sweep) / kSweeps)) return;
     const std::vector<Index> active = dilated(mesh, bad, 2);
     relax(mesh, fidelity, active, options, workers);
-    const std::vector<Index> touched = triangles_of(mesh, active);
+    const std::vector<Index> touched = triangles_around(mesh, active);
     fidelity.rewalk(mesh, touched);
     flip_edges(mesh, fidelity, options.shape, &touched);
     bad = triangles_outside(mesh, test);
@@ -93,7 +59,8 @@ Index sweep_angles(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal
     const std::vector<Index> bad = triangles_outside(mesh, test);
     if (bad.empty()) break;
     if (mend_triangles(mesh, fidelity, bad, trial, workers,
-                       [&] { return keep_going(0.5 + 0.2 * round); }) == 0 && round > 0)
+                       [&] { return keep_going(0.5 + 0.2 * round); }) == 0 &&
+        round > 0)
       break;
     trial.shape.hinge *= 10;
   }

@@ -64,9 +64,9 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
     improve(trials[i], options.passes);
   });
   if (trials.empty()) return std::nullopt;
-  const auto best = std::min_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
-    return a.score < b.score;
-  });
+  const auto best =
+      std::min_element(trials.begin(), trials.end(),
+                       [](const Trial& a, const Trial& b) { return a.score < b.score; });
   best_score = best->score;
   return std::move(best->patch);
 }

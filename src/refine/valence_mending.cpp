@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPasses = 6;
 constexpr double kFlat = 0.98;  // length of a ring's summed normal over its area
-constexpr int kPlaces = 24;  // tried to balance the count
+constexpr int kPlaces = 24;     // tried to balance the count
 
 struct Effort {
   int rings, flips;

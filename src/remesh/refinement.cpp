@@ -9,9 +9,11 @@
 
 #include "refine/angle_goal.h"
 #include "refine/angle_sweeps.h"
+#include "refine/distance_polish.h"
 #include "refine/fidelity.h"
 #include "refine/flips.h"
 #include "refine/global_descent.h"
+#include "refine/sheet_separation.h"
 
 namespace nonobtuse::pipeline {
 namespace {
@@ -59,13 +61,27 @@ class Refinement {
       adapt_weights();
       descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }
-    const auto keep_going = [&](double f) { return tick(0.75 + 0.25 * f); };
-    return refine::sweep_angles(mesh_, fidelity_, {lo, hi}, options_.on_surface, workers_,
-                                keep_going);
+    const refine::AngleGoal goal{lo, hi};
+    const Index outside =
+        refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,
+                             [&](double f) { return tick(0.75 + 0.15 * f); });
+    refine::TrialOptions local;
+    local.goal = goal;
+    local.shape = energy::hinged(100, lo + 1, hi - 1);
+    local.on_surface = options_.on_surface;
+    refine::polish_distance(mesh_, fidelity_, local, workers_,
+                            [&](double f) { return tick(0.9 + 0.05 * f); });
+    refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                            [&](double f) { return tick(0.95 + 0.05 * f); });
+    return outside == 0 ? 0 : outside_goal(goal);
   }
 
  private:
   bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
+
+  [[nodiscard]] Index outside_goal(const refine::AngleGoal& goal) const {
+    return static_cast<Index>(refine::triangles_outside(mesh_, refine::AngleTest(goal)).size());
+  }
 
   // Fidelity is bought with shape, not with the angle bounds: on a smooth surface there is shape to
   // spare, on a rough one there is not.
@@ -112,7 +128,9 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
-  return Refinement(surface, mesh, options, workers, monitor).run();
+  const Index outside = Refinement(surface, mesh, options, workers, monitor).run();
+  mesh.compact();
+  return outside;
 }
 
 }  // namespace nonobtuse::pipeline
