@@ -12,7 +12,7 @@ double add_circumcentre_term(std::span<const Vec3> sites, std::span<const Triang
   double value = 0;
   for (const Triangle& t : triangles) {
     const auto& [p0, p1, p2] = std::array{sites[t[0]], sites[t[1]], sites[t[2]]};
-    const std::array<double, 3> e = squared_edges(p0, p1, p2);
+    const std::array<double, 3> e = squared_edge_lengths(p0, p1, p2);
     if (!(std::min({e[0], e[1], e[2]}) > 0)) continue;
     const TriangleTerm term = circumcentre_term(e);
     const std::array<Vec3, 3> g = corner_gradients(term.by_squared_edge, p0, p1, p2);

@@ -21,7 +21,8 @@ struct TriangleTerm {
   std::array<double, 3> by_squared_edge{};
 };
 
-constexpr std::array<double, 3> squared_edges(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
+constexpr std::array<double, 3> squared_edge_lengths(const Vec3& p0, const Vec3& p1,
+                                                     const Vec3& p2) {
   return {squared_distance(p1, p2), squared_distance(p2, p0), squared_distance(p0, p1)};
 }
 
