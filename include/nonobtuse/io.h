@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nonobtuse/error.h"
@@ -31,15 +32,23 @@ struct ReadResult {
 /// that are not finite).
 ReadResult read_mesh(const std::string& path);
 
+/// The same from the bytes of a file; `name` (with a suffix, if known) stands in messages.
+ReadResult read_mesh_from_memory(std::string_view bytes, const std::string& name = "mesh");
+
 struct WriteOptions {
   bool binary = true;  ///< PLY and STL only; PLY is written in doubles
 };
 
 /// Writes by suffix (.obj .off .ply .stl), texts in the shortest form that reads back the same
 /// doubles. Writes to a temporary name beside `path` and renames: never half a file.
-/// Throws IoError.
+/// Throws IoError, and InvalidInput for indices out of range and coordinates that are not finite or
+/// beyond the range of a float in a binary STL.
 void write_mesh(const std::string& path, const TriangleMesh& mesh,
                 const WriteOptions& options = {});
+
+/// The bytes that `write_mesh` writes.
+std::string write_mesh_to_memory(FileFormat format, const TriangleMesh& mesh,
+                                 const WriteOptions& options = {});
 
 /// The coordinates as a reader of the written file sees them (binary STL holds floats).
 TriangleMesh as_written(const std::string& path, const TriangleMesh& mesh,

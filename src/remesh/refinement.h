@@ -2,8 +2,6 @@
 // together, then local sweeps on the last bad triangles.
 #pragma once
 
-#include <vector>
-
 #include "mesh/editable_mesh.h"
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
@@ -12,18 +10,16 @@
 namespace nonobtuse::remesh {
 
 struct RefinementOptions {
-  double min_angle = 40;  ///< degrees, bounds to reach
+  double min_angle = 40;  ///< degrees, bounds to reach; [46, 74] is possible on smooth surfaces
   double max_angle = 80;
   bool on_surface = false;  ///< keep vertices on the surface
 };
 
-/// Brings every vertex to valence 5, 6 or 7 by edits that keep the number of vertices and the
-/// topology, as far as it can. Returns the number of bad valences left.
-Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-                       const parallel::Workers& workers, parallel::Monitor& monitor);
-
-/// Moves vertices and flips edges until every angle is inside the bounds, or nothing helps any
-/// more. Returns the number of triangles left outside.
+/// Moves vertices, flips edges and, where nothing else helps, collapses one edge and splits
+/// another, until every angle is inside the bounds or nothing helps any more. Keeps the number of
+/// vertices and the topology; boundary vertices stay where they are. Working coordinates
+/// (area / #V = 1). Returns the number of triangles left outside. After a cancellation the mesh is
+/// valid, only not finished.
 Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
              const RefinementOptions& options, const parallel::Workers& workers,
              parallel::Monitor& monitor);

@@ -1,0 +1,18 @@
+// The restricted Delaunay triangulation: the dual of the exact restricted Voronoi diagram
+// (Edelsbrunner, Shah, Triangulating topological spaces, 1997).
+#pragma once
+
+#include <vector>
+
+#include "mesh/surface.h"
+#include "nonobtuse/mesh.h"
+#include "rvd/restricted_voronoi.h"
+
+namespace nonobtuse::rdt {
+
+/// A triangle (i, j, k) for every point of the surface where three cells meet, oriented like the
+/// surface, in order of facets; i is the lowest index. A triangle may occur more than once and the
+/// whole need not be a manifold: see closed_ball.h.
+std::vector<Triangle> restricted_delaunay(const rvd::RestrictedVoronoi& diagram);
+
+}  // namespace nonobtuse::rdt

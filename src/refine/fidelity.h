@@ -1,0 +1,127 @@
+// Two-sided distance between the surface M and the mesh T as an energy: area-uniform samples of M
+// against their nearest triangles of T, vertices and centroids of T against tangent planes of M.
+// Which triangle and which plane is frozen between updates; the closest point on the triangle is
+// not, so the gradient is exact by the envelope theorem. A sample only looks at triangles whose
+// normal agrees with its own facet's, and a foot only at such facets: the two sheets of a thin
+// part never see each other.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesh/editable_mesh.h"
+#include "mesh/surface.h"
+#include "parallel/workers.h"
+#include "refine/triangle_frame.h"
+#include "spatial/triangle_bvh.h"
+
+namespace nonobtuse::refine {
+
+/// A point of M that T should pass through.
+struct Sample {
+  Vec3 point;
+  double weight = 0;  ///< area it stands for
+  Index facet = -1;   ///< of M
+  Index vertex = -1;  ///< of M, if it is one
+  Index next = -1;    ///< next sample of the same triangle of T, -1 at the end
+};
+
+/// Tangent plane of M under a point of T.
+struct TangentPlane {
+  Vec3 point;   ///< foot of the point
+  Vec3 normal;  ///< unit: the facet's, or the offset's direction where M is sharp
+  Index facet = -1;
+};
+
+struct FidelityWeights {
+  double to_mesh = 10;     ///< M -> T
+  double to_surface = 10;  ///< T -> M
+};
+
+/// `count` samples of M, uniform by area, in the order of the facets; each stands for the same
+/// area. Deterministic.
+std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count);
+
+class Fidelity {
+ public:
+  /// Both must outlive this object.
+  Fidelity(const mesh::Surface& of, const spatial::TriangleBvh& bvh_of)
+      : surface(of), surface_bvh(bvh_of) {}
+
+  const mesh::Surface& surface;
+  const spatial::TriangleBvh& surface_bvh;
+  FidelityWeights weights;
+  std::vector<Sample> samples;
+  std::vector<Index> first;                   ///< #T, head of each triangle's list of samples
+  std::vector<TangentPlane> vertex_planes;    ///< #V
+  std::vector<TangentPlane> centroid_planes;  ///< #T
+  std::vector<double> vertex_weights;         ///< #V, frozen: ring area / 12
+  std::vector<double> centroid_weights;       ///< #T, frozen: 3/4 of the area
+
+  /// Gives every sample to the nearest triangle that agrees with it, by search.
+  void search_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
+  /// The same by walking over the mesh from the present triangle to nearer neighbours; sorts the
+  /// samples by triangle.
+  void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
+  /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
+  void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
+  /// samples of the given weight; of those added before, multiplies the weights by `growth` where
+  /// they are still far. Returns how many are far.
+  Index emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
+                               double growth, const parallel::Workers& workers);
+  /// Gives the samples of these triangles to the nearest of them (after a local edit).
+  void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Feet, tangent planes and weights of all vertices and centroids: by search where there is none
+  /// yet or with `search`, else by walking over M.
+  void update_planes(const mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                     bool search = false);
+  /// The same for one vertex or one triangle.
+  void update_vertex(const mesh::EditableMesh& mesh, Index vertex, bool search = false);
+  void update_triangle(const mesh::EditableMesh& mesh, Index triangle, bool search = false);
+
+  /// Energy of the samples and the centroid of a triangle with corners p; adds to `gradient`.
+  double triangle(Index t, const std::array<Vec3, 3>& p, std::array<Vec3, 3>* gradient) const;
+  /// Energy of a vertex at p against its tangent plane; adds to `gradient`.
+  double vertex(Index v, const Vec3& p, Vec3* gradient) const;
+  /// Mean squared distance of the samples, by weight.
+  [[nodiscard]] double mean_square(const mesh::EditableMesh& mesh) const;
+
+  /// Foot of p on M on the side that `normal` looks to, by search.
+  [[nodiscard]] TangentPlane search_foot(const Vec3& p, const Vec3& normal) const;
+  /// Foot of p on M by walking over the facets from `facet`.
+  [[nodiscard]] TangentPlane walk_foot(const Vec3& p, Index facet) const;
+
+ private:
+  [[nodiscard]] Index walk_to_nearest(const mesh::EditableMesh& mesh, Index from,
+                                      const Sample& sample, ClosestPoint& nearest) const;
+  void sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles);
+  [[nodiscard]] TangentPlane plane(const Vec3& p, const Vec3& foot, Index facet) const;
+};
+
+/// Corner positions of a triangle.
+inline std::array<Vec3, 3> corners(const mesh::EditableMesh& mesh, Index t) {
+  const Triangle& v = mesh.triangle(t);
+  return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+}
+
+/// Twice the area times the normal.
+inline Vec3 area_vector(const std::array<Vec3, 3>& p) { return area_vector(p[0], p[1], p[2]); }
+
+/// Sum of the area vectors around a vertex.
+Vec3 vertex_area_vector(const mesh::EditableMesh& mesh, Index v);
+
+/// Calls visit(triangle, corner) for the triangles around v, without allocation.
+template <class Visit>
+void for_ring(const mesh::EditableMesh& mesh, Index v, const Visit& visit) {
+  const Index start = mesh.triangle_of(v);
+  Index t = start;
+  do {
+    const int k = mesh.corner_of(t, v);
+    visit(t, k);
+    t = mesh.adjacent(t, mesh::next(k));
+  } while (t >= 0 && t != start);
+}
+
+}  // namespace nonobtuse::refine

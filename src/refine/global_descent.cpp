@@ -1,0 +1,171 @@
+// Preconditioner: per vertex a tangential and a normal stiffness, estimated triangle by triangle
+// from the second derivatives of the terms at a good triangle; frozen between calls of `freeze`.
+#include "refine/global_descent.h"
+
+#include <algorithm>
+
+namespace nonobtuse::refine {
+namespace {
+
+constexpr std::size_t kChunk = 512;
+constexpr double kLongestStep = 0.3;  // of a vertex, where the ideal edge is 1.07 long
+constexpr int kHalvings = 6;
+
+// Tangential stiffness of a triangle's shape energy.
+double shape_stiffness(const std::array<Vec3, 3>& p, const energy::ShapeWeights& w) {
+  const std::array<double, 3> s = energy::squared_edges(p[0], p[1], p[2]);
+  const double area = 0.5 * length(area_vector(p));
+  const double perimeter = std::sqrt(s[0]) + std::sqrt(s[1]) + std::sqrt(s[2]);
+  // R / 2r = abc perimeter / (16 area^2)
+  const double ratio = std::sqrt(s[0] * s[1] * s[2]) * perimeter / (16 * area * area + 1e-12);
+  double stiffness = w.cvt * 2 * area / 3 + w.circumcentre * 2 * std::min(20.0, 1 + ratio);
+  const double longest = std::max(s[0], std::max(s[1], s[2]));
+  for (int k = 0; k < 3; ++k) {
+    const double b = s[mesh::next(k)], c = s[mesh::previous(k)];
+    const double cosine = (b + c - s[k]) / (2 * std::sqrt(b * c));
+    if (cosine < w.cos_largest || cosine > w.cos_smallest) stiffness += w.hinge * 4 / longest;
+  }
+  return stiffness;
+}
+
+}  // namespace
+
+GlobalDescent::GlobalDescent(mesh::EditableMesh& mesh, Fidelity& fidelity, bool on_surface,
+                             const parallel::Workers& workers)
+    : mesh_(mesh), fidelity_(fidelity), on_surface_(on_surface), workers_(workers) {}
+
+void GlobalDescent::freeze() {
+  const Index vertices = mesh_.vertex_capacity(), triangles = mesh_.triangle_capacity();
+  corner_start_.assign(vertices + 1, 0);
+  for (const Triangle& v : mesh_.triangles())
+    for (Index i : v) ++corner_start_[i + 1];
+  for (Index v = 0; v < vertices; ++v) corner_start_[v + 1] += corner_start_[v];
+  corner_.resize(3 * triangles);
+  std::vector<Index> fill(corner_start_.begin(), corner_start_.end() - 1);
+  for (Index t = 0; t < triangles; ++t)
+    for (int k = 0; k < 3; ++k) corner_[fill[mesh_.triangle(t)[k]]++] = 3 * t + k;
+  fixed_.resize(vertices);
+  for (Index v = 0; v < vertices; ++v) fixed_[v] = mesh_.on_boundary(v);
+
+  // corner_gradient_ serves as scratch: x holds the shape's stiffness, y the samples'.
+  corner_gradient_.resize(triangles);
+  workers_.for_each(triangles, kChunk, [&](std::size_t i) {
+    const Index t = static_cast<Index>(i);
+    const std::array<Vec3, 3> p = corners(mesh_, t);
+    const double stiffness = shape_stiffness(p, shape);
+    std::array<double, 3> pull{0, 0, 0};
+    const TriangleFrame frame(p[0], p[1], p[2]);
+    for (Index s = fidelity_.first[t]; s >= 0; s = fidelity_.samples[s].next) {
+      const Sample& sample = fidelity_.samples[s];
+      const ClosestPoint c = frame.closest(sample.point);
+      for (int k = 0; k < 3; ++k) pull[k] += sample.weight * c.barycentric[k];
+    }
+    for (int k = 0; k < 3; ++k)
+      corner_gradient_[t][k] = {stiffness, pull[k] * fidelity_.weights.to_mesh, 0};
+  });
+  blocks_.resize(vertices);
+  workers_.for_each(vertices, kChunk, [&](std::size_t v) {
+    Vec3 sum;
+    for (Index c = corner_start_[v]; c < corner_start_[v + 1]; ++c)
+      sum += corner_gradient_[corner_[c] / 3][corner_[c] % 3];
+    const double surface = 8 * fidelity_.weights.to_surface * fidelity_.vertex_weights[v];
+    const double tangential = sum.x + 0.3 * sum.y;
+    const double vertical = 0.3 * sum.x + 2 * sum.y + surface;
+    blocks_[v] = {fidelity_.vertex_planes[v].normal, 1 / tangential, 1 / vertical};
+  });
+}
+
+double GlobalDescent::evaluate(std::vector<Vec3>& gradient) {
+  const double triangles = workers_.ordered_sum(
+      mesh_.triangle_capacity(), kChunk, 0.0, [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Index t = static_cast<Index>(i);
+          const std::array<Vec3, 3> p = corners(mesh_, t);
+          sum += energy::triangle_shape(p[0], p[1], p[2], shape, corner_gradient_[i]);
+          sum += fidelity_.triangle(t, p, &corner_gradient_[i]);
+        }
+        return sum;
+      });
+  gradient.resize(mesh_.vertex_capacity());
+  const double vertices = workers_.ordered_sum(
+      mesh_.vertex_capacity(), kChunk, 0.0, [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          Vec3 g;
+          for (Index c = corner_start_[i]; c < corner_start_[i + 1]; ++c)
+            g += corner_gradient_[corner_[c] / 3][corner_[c] % 3];
+          sum += fidelity_.vertex(static_cast<Index>(i), mesh_.positions[i], &g);
+          if (fixed_[i]) g = {};
+          if (on_surface_) g -= dot(g, blocks_[i].normal) * blocks_[i].normal;
+          gradient[i] = g;
+        }
+        return sum;
+      });
+  return triangles + vertices;
+}
+
+void GlobalDescent::precondition(std::span<const Vec3> in, std::span<Vec3> out) const {
+  workers_.for_each(in.size(), 4 * kChunk, [&](std::size_t v) {
+    const Block& b = blocks_[v];
+    const double height = dot(in[v], b.normal);
+    out[v] = b.tangential * in[v] + (b.vertical - b.tangential) * height * b.normal;
+  });
+}
+
+void GlobalDescent::move(const std::vector<Vec3>& direction, double step) {
+  workers_.for_each(direction.size(), kChunk, [&](std::size_t v) {
+    mesh_.positions[v] = origin_[v] + step * direction[v];
+    if (on_surface_ && !fixed_[v])
+      mesh_.positions[v] =
+          fidelity_.walk_foot(mesh_.positions[v], fidelity_.vertex_planes[v].facet).point;
+  });
+}
+
+bool GlobalDescent::search_line(const std::vector<Vec3>& direction, double slope,
+                                double first_step) {
+  double step = first_step;
+  for (int i = 0; i <= kHalvings; ++i, step *= 0.5) {
+    move(direction, step);
+    const double trial = evaluate(trial_gradient_);
+    if (trial <= energy_ + 1e-4 * step * slope) {
+      energy_ = trial;
+      return true;
+    }
+  }
+  mesh_.positions = origin_;
+  return false;
+}
+
+void GlobalDescent::run(int iterations, const std::function<bool()>& keep_going) {
+  energy_ = evaluate(gradient_);
+  std::vector<Vec3> direction(gradient_.size()), change(gradient_.size());
+  for (int i = 0; i < iterations && keep_going(); ++i) {
+    history_.direction(
+        gradient_, direction, [&](auto in, auto out) { precondition(in, out); }, workers_);
+    for (std::size_t v = 0; v < direction.size(); ++v) {
+      if (on_surface_) direction[v] -= dot(direction[v], blocks_[v].normal) * blocks_[v].normal;
+      const double l = length(direction[v]);
+      if (fixed_[v])
+        direction[v] = {};
+      else if (l > kLongestStep)
+        direction[v] *= kLongestStep / l;
+    }
+    origin_ = mesh_.positions;
+    const double slope = optimize::dot(direction, gradient_, workers_);
+    const bool fresh = history_.size() == 0;
+    if (slope >= 0 || !search_line(direction, slope, fresh ? 0.7 : 1.0)) {
+      history_.clear();
+      if (fresh) return;
+      continue;
+    }
+    for (std::size_t v = 0; v < direction.size(); ++v) {
+      direction[v] = mesh_.positions[v] - origin_[v];
+      change[v] = trial_gradient_[v] - gradient_[v];
+    }
+    history_.add(direction, change, workers_);
+    std::swap(gradient_, trial_gradient_);
+  }
+}
+
+}  // namespace nonobtuse::refine

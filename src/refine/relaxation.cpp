@@ -1,0 +1,166 @@
+// Newton with a Hessian from differences of the gradient and Levenberg's damping (Nocedal & Wright,
+// Numerical Optimization, 2006, ch. 10): the hinge makes the energy only once differentiable.
+#include "refine/relaxation.h"
+
+#include <algorithm>
+#include <array>
+
+namespace nonobtuse::refine {
+namespace {
+
+using Matrix = std::array<Vec3, 3>;  // columns
+
+constexpr double kDifference = 1e-5;  // in units of about an edge length
+constexpr double kLongestStep = 0.25;
+
+// Solves (H + damping) x = b by Cholesky; false if that is not positive definite.
+bool solve(const Matrix& h, double damping, const Vec3& b, Vec3& x) {
+  const double l00 = h[0].x + damping;
+  if (!(l00 > 0)) return false;
+  const double l10 = h[0].y / l00, l20 = h[0].z / l00;
+  const double d1 = h[1].y + damping - l10 * h[0].y;
+  if (!(d1 > 1e-12 * l00)) return false;
+  const double e21 = h[1].z - l10 * h[0].z;
+  const double l21 = e21 / d1;
+  const double d2 = h[2].z + damping - l20 * h[0].z - l21 * e21;
+  if (!(d2 > 1e-12 * l00)) return false;
+  const double y0 = b.x, y1 = b.y - l10 * y0, y2 = b.z - l20 * y0 - l21 * y1;
+  x.z = y2 / d2;
+  x.y = y1 / d1 - l21 * x.z;
+  x.x = y0 / l00 - l10 * x.y - l20 * x.z;
+  return true;
+}
+
+Matrix symmetrized(Matrix h) {
+  h[0].y = h[1].x = 0.5 * (h[0].y + h[1].x);
+  h[0].z = h[2].x = 0.5 * (h[0].z + h[2].x);
+  h[1].z = h[2].y = 0.5 * (h[1].z + h[2].y);
+  return h;
+}
+
+struct RingSolver {
+  mesh::EditableMesh& mesh;
+  Fidelity& fidelity;
+  const RelaxationOptions& options;
+
+  double energy(Index v, const Vec3& p, Vec3* gradient) const {
+    return ring_energy(mesh, fidelity, options.shape, v, p, gradient);
+  }
+
+  [[nodiscard]] Vec3 tangent(Index v, const Vec3& g) const {
+    const Vec3 n = fidelity.vertex_planes[v].normal;
+    return g - dot(g, n) * n;
+  }
+
+  [[nodiscard]] Matrix hessian(Index v, const Vec3& p, const Vec3& gradient) const {
+    Matrix h;
+    const std::array<Vec3, 3> axes{Vec3{kDifference, 0, 0}, Vec3{0, kDifference, 0},
+                                   Vec3{0, 0, kDifference}};
+    for (int i = 0; i < 3; ++i) {
+      Vec3 g;
+      energy(v, p + axes[i], &g);
+      h[i] = (g - gradient) / kDifference;
+    }
+    return symmetrized(h);
+  }
+
+  // Away from a ring with a triangle without area: to the middle of the neighbours.
+  void escape(Index v) const {
+    Vec3 sum;
+    double count = 0;
+    for_ring(mesh, v, [&](Index t, int k) {
+      sum += mesh.positions[mesh.triangle(t)[mesh::next(k)]];
+      count += 1;
+    });
+    if (std::isfinite(energy(v, sum / count, nullptr))) mesh.positions[v] = sum / count;
+  }
+
+  // One damped Newton step; the energy falls or the vertex stays.
+  void step(Index v) const {
+    const Vec3 p = mesh.positions[v];
+    Vec3 g;
+    const double before = energy(v, p, &g);
+    if (!std::isfinite(before)) return escape(v);
+    if (options.on_surface) g = tangent(v, g);
+    const Matrix h = hessian(v, p, g);
+    const double size = std::abs(h[0].x) + std::abs(h[1].y) + std::abs(h[2].z);
+    double damping = 1e-6 * size;
+    for (int attempt = 0; attempt < 10; ++attempt, damping = std::max(10 * damping, 1e-3 * size)) {
+      Vec3 d;
+      if (!solve(h, damping, -g, d)) continue;
+      if (options.on_surface) d = tangent(v, d);
+      const double l = length(d);
+      if (!(l > 1e-9)) return;
+      if (l > kLongestStep) d *= kLongestStep / l;
+      Vec3 to = p + d;
+      if (options.on_surface) to = fidelity.walk_foot(to, fidelity.vertex_planes[v].facet).point;
+      if (energy(v, to, nullptr) < before) {
+        mesh.positions[v] = to;
+        return;
+      }
+    }
+  }
+};
+
+// Greedy colouring, in the order given: neighbours get different colours.
+std::vector<std::vector<Index>> color_classes(const mesh::EditableMesh& mesh,
+                                              const std::vector<Index>& vertices) {
+  std::vector<std::pair<Index, int>> color;  // by vertex
+  color.reserve(vertices.size());
+  for (Index v : vertices) color.emplace_back(v, -1);
+  std::sort(color.begin(), color.end());
+  std::vector<std::vector<Index>> classes;
+  for (auto& [v, own] : color) {
+    std::uint64_t taken = 0;
+    for_ring(mesh, v, [&](Index t, int) {
+      for (Index u : mesh.triangle(t)) {
+        const auto it = std::lower_bound(color.begin(), color.end(), std::pair<Index, int>{u, -2});
+        if (it != color.end() && it->first == u && it->second >= 0 && it->second < 64)
+          taken |= std::uint64_t{1} << it->second;
+      }
+    });
+    own = 0;
+    while (own < 63 && (taken >> own & 1)) ++own;
+    if (static_cast<int>(classes.size()) <= own) classes.resize(own + 1);
+    classes[own].push_back(v);
+  }
+  return classes;
+}
+
+}  // namespace
+
+double ring_energy(const mesh::EditableMesh& mesh, const Fidelity& fidelity,
+                   const energy::ShapeWeights& shape, Index v, const Vec3& p, Vec3* gradient) {
+  double sum = 0;
+  for_ring(mesh, v, [&](Index t, int k) {
+    std::array<Vec3, 3> c = corners(mesh, t);
+    c[k] = p;
+    if (gradient) {
+      std::array<Vec3, 3> g;
+      sum += energy::triangle_shape(c[0], c[1], c[2], shape, g);
+      sum += fidelity.triangle(t, c, &g);
+      *gradient += g[k];
+    } else {
+      sum += energy::triangle_shape(energy::squared_edges(c[0], c[1], c[2]), shape);
+      sum += fidelity.triangle(t, c, nullptr);
+    }
+  });
+  return sum + fidelity.vertex(v, p, gradient);
+}
+
+void relax(mesh::EditableMesh& mesh, Fidelity& fidelity, const std::vector<Index>& vertices,
+           const RelaxationOptions& options, const parallel::Workers& workers) {
+  std::vector<Index> free;
+  for (Index v : vertices)
+    if (!mesh.on_boundary(v)) free.push_back(v);
+  const RingSolver solver{mesh, fidelity, options};
+  const auto classes = color_classes(mesh, free);
+  for (int pass = 0; pass < options.passes; ++pass)
+    for (const std::vector<Index>& of_one_color : classes)
+      workers.for_each(of_one_color.size(), 16, [&](std::size_t i) {
+        solver.step(of_one_color[i]);
+        fidelity.update_vertex(mesh, of_one_color[i]);
+      });
+}
+
+}  // namespace nonobtuse::refine

@@ -1,0 +1,97 @@
+// Why no Voronoi diagram: after plain CVT the connectivity is nearly right, and the mesh's own
+// triangles tell shape, angles and distance at a fifth of the cost. Vertices may leave the surface
+// by the small offset that minimises the two-sided distance, which takes away most of the conflict
+// between angles and fidelity.
+#include "remesh/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "refine/angle_goal.h"
+#include "refine/angle_sweeps.h"
+#include "refine/fidelity.h"
+#include "refine/flips.h"
+#include "refine/global_descent.h"
+
+namespace nonobtuse::remesh {
+namespace {
+
+constexpr Index kSamplesPerVertex = 8;
+constexpr int kStepsBetweenFlips = 5;
+constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
+constexpr double kFarWeight = 0.2;
+constexpr double kFarGrowth = 3;
+
+class Refinement {
+ public:
+  Refinement(const mesh::Surface& surface, mesh::EditableMesh& mesh,
+             const RefinementOptions& options, const parallel::Workers& workers,
+             parallel::Monitor& monitor)
+      : mesh_(mesh),
+        options_(options),
+        workers_(workers),
+        monitor_(monitor),
+        bvh_(surface.vertices, surface.triangles, workers),
+        fidelity_(surface, bvh_),
+        descent_(mesh, fidelity_, options.on_surface, workers) {
+    if (options.on_surface) fidelity_.weights.to_surface = 0;
+    fidelity_.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
+    fidelity_.search_samples(mesh, workers);
+    fidelity_.update_planes(mesh, workers);
+  }
+
+  Index run() {
+    const double lo = options_.min_angle, hi = options_.max_angle;
+    // First wide open, so that shape and fidelity find their balance; then two degrees inside.
+    descend(14, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
+    const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
+    for (int round = 0; round < 3; ++round) {
+      const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
+      fidelity_.emphasize_far_vertices(mesh_, far, kFarWeight, kFarGrowth, workers_);
+      descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
+    }
+    return refine::sweep_angles(mesh_, fidelity_, {lo, hi}, options_.on_surface, workers_,
+                                [&](double f) { return tick(0.75 + 0.25 * f); });
+  }
+
+ private:
+  bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
+
+  // L-BFGS in blocks of a few steps; flips, samples, planes and preconditioner are renewed between.
+  void descend(int iterations, const energy::ShapeWeights& shape, double from, double to) {
+    descent_.shape = shape;
+    for (int done = 0; done < iterations; done += kStepsBetweenFlips) {
+      if (!tick(from + (to - from) * done / iterations)) return;
+      fidelity_.walk_samples(mesh_, workers_);
+      refine::flip_edges(mesh_, fidelity_, shape);
+      fidelity_.update_planes(mesh_, workers_);
+      descent_.freeze();
+      descent_.run(std::min(kStepsBetweenFlips, iterations - done),
+                   [&] { return !monitor_.cancelled(); });
+    }
+    fidelity_.walk_samples(mesh_, workers_);
+    refine::flip_edges(mesh_, fidelity_, shape);
+    fidelity_.update_planes(mesh_, workers_);
+  }
+
+  mesh::EditableMesh& mesh_;
+  RefinementOptions options_;
+  const parallel::Workers& workers_;
+  parallel::Monitor& monitor_;
+  spatial::TriangleBvh bvh_;
+  refine::Fidelity fidelity_;
+  refine::GlobalDescent descent_;
+};
+
+}  // namespace
+
+Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
+             const RefinementOptions& options, const parallel::Workers& workers,
+             parallel::Monitor& monitor) {
+  if (mesh.vertex_capacity() != mesh.vertex_count() ||
+      mesh.triangle_capacity() != mesh.triangle_count())
+    mesh.compact();
+  return Refinement(surface, mesh, options, workers, monitor).run();
+}
+
+}  // namespace nonobtuse::remesh

@@ -1,0 +1,18 @@
+// Valence optimisation: no vertex with fewer than 5 or more than 7 neighbours, by edits that keep
+// the number of vertices (Yan & Wonka 2016, section 4.2, with flips in place of resampling).
+#pragma once
+
+#include "mesh/editable_mesh.h"
+#include "mesh/surface.h"
+#include "parallel/monitor.h"
+#include "parallel/workers.h"
+
+namespace nonobtuse::remesh {
+
+/// Brings every interior vertex to valence 5, 6 or 7 by edits that keep the number of vertices and
+/// the topology, as far as it can. Working coordinates (area / #V = 1). Returns the number of bad
+/// valences left. After a cancellation the mesh is valid, only not finished.
+Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
+                       const parallel::Workers& workers, parallel::Monitor& monitor);
+
+}  // namespace nonobtuse::remesh
