@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
-#include "energy/angle_hinge_rvd.h"
-#include "energy/circumcentre_rvd.h"
 #include "energy/short_dual_penalty.h"
+#include "energy/triangle_penalties.h"
 #include "numeric/vec3.h"
 #include "optimize/lbfgs.h"
 #include "remesh/restricted_diagram.h"
@@ -64,46 +62,42 @@ class PenalizedEnergy {
       : surface_(surface), options_(options), workers_(workers) {}
 
   [[nodiscard]] Evaluation evaluate(const PlacedSites& x) {
-    RestrictedDiagram cells = restricted_diagram(surface_, x.sites, workers_);
+    const RestrictedDiagram diagram = restricted_diagram(surface_, x.sites, workers_);
+    const rvd::CellSums& cells = diagram.cells;
     const std::size_t n = x.sites.size();
-    if (hinge_scale_ < 0) hinge_scale_ = options_.hinge * 6.23 * cells.energy / n;
+    if (hinge_scale_ < 0) hinge_scale_ = 6.23 * cells.energy / static_cast<double>(n);
     Evaluation result{{0, 0, cells.energy}, std::vector<Vec3>(n), std::vector<double>(n), {}};
     for (std::size_t i = 0; i < n; ++i) {
       result.gradient[i] = 2 * cells.mass[i] * (x.sites[i] - cells.centroid[i]);
       result.diagonal[i] = 2 * cells.mass[i];
     }
-    add_penalties(x, cells.edges, cells.triangles, result);
+    add_penalties(x, diagram, result);
     for (std::size_t i = 0; i < n; ++i)
       result.gradient[i] -= dot(result.gradient[i], x.normals[i]) * x.normals[i];
-    count_bad_triangles(x.sites, cells.triangles, result.score);
-    result.mass = std::move(cells.mass);
+    count_bad_triangles(x.sites, diagram.triangles, result.score);
+    result.mass = cells.mass;
     return result;
   }
 
  private:
-  void add_penalties(const PlacedSites& x, std::span<const energy::DualEdge> edges,
-                     std::span<const Triangle> triangles, Evaluation& result) const {
+  void add_penalties(const PlacedSites& x, const RestrictedDiagram& diagram,
+                     Evaluation& result) const {
     const double unit = surface_.area / static_cast<double>(x.sites.size());
     if (options_.short_dual > 0) {
       const std::vector<double> weights =
-          energy::short_dual_weights(x.sites, edges, options_.relative_epsilon);
+          energy::short_dual_weights(x.sites, diagram.edges, options_.relative_epsilon);
       std::span<const Vec3> normals;
       if (options_.tangential) normals = x.normals;
-      result.score.energy +=
-          energy::add_short_dual_penalty(x.sites, edges, weights, normals,
-                                         options_.short_dual * unit, result.gradient,
-                                         result.diagonal);
+      result.score.energy += energy::add_short_dual_penalty(x.sites, diagram.edges, weights,
+                                                            normals, options_.short_dual * unit,
+                                                            result.gradient, result.diagonal);
     }
-    if (options_.circumcentre > 0)
-      result.score.energy +=
-          energy::add_circumcentre_term(x.sites, triangles, options_.circumcentre * unit,
-                                        result.gradient, result.diagonal);
-    if (options_.hinge > 0) {
-      const double degree = std::numbers::pi / 180;
-      const energy::HingeThresholds limits{std::cos(options_.hinge_large * degree),
-                                           std::cos(options_.hinge_small * degree)};
-      result.score.energy += energy::add_angle_hinge(x.sites, triangles, limits, hinge_scale_,
-                                                     result.gradient, result.diagonal);
+    if (options_.circumcentre > 0 || options_.hinge > 0) {
+      const energy::ShapeWeights weights{
+          0, options_.circumcentre * unit, options_.hinge * hinge_scale_,
+          energy::cos_degrees(options_.hinge_large), energy::cos_degrees(options_.hinge_small)};
+      result.score.energy += energy::add_triangle_penalties(x.sites, diagram.triangles, weights,
+                                                            result.gradient, result.diagonal);
     }
   }
 
@@ -140,54 +134,91 @@ std::vector<Vec3> differences(std::span<const Vec3> a, std::span<const Vec3> b) 
   return d;
 }
 
+struct Iterate {
+  PlacedSites placed;
+  Evaluation evaluation;
+};
+
+// One step along the direction. Armijo's rule, but the step is taken after two halvings all the
+// same: the gradient of Eq. 4 ignores how w changes, so that near the minimum the energy may rise
+// however short the step (8 halvings cost twice the time and gained nothing).
+Iterate line_search(const Iterate& from, std::span<const Vec3> direction,
+                    const SurfaceProjection& projection, PenalizedEnergy& energy,
+                    const parallel::Workers& workers) {
+  constexpr int kMaxHalvings = 2;
+  const double slope = optimize::dot(from.evaluation.gradient, direction, workers);
+  Iterate trial;
+  double step = 1;
+  for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, step *= 0.5) {
+    trial.placed = projection.step(from.placed, direction, step);
+    trial.evaluation = energy.evaluate(trial.placed);
+    const double allowed = from.evaluation.score.energy + 1e-4 * step * slope;
+    if (trial.evaluation.score.energy <= allowed) break;
+  }
+  return trial;
+}
+
+// Tells when nothing is left to gain: no bad triangle, and the best energy has not fallen by 1e-4
+// of itself within five iterations.
+class Patience {
+ public:
+  explicit Patience(const Score& start) : reference_(start) {}
+
+  bool exhausted(const Score& best) {
+    const Score notable{reference_.obtuse, reference_.small, reference_.energy * (1 - 1e-4)};
+    if (best < notable) {
+      reference_ = best;
+      waited_ = 0;
+    } else {
+      ++waited_;
+    }
+    return waited_ >= 5 && best.obtuse == 0 && best.small == 0;
+  }
+
+ private:
+  Score reference_;
+  int waited_ = 0;
+};
+
+// L-BFGS with every trial step on the surface; returns the best sites seen.
+PlacedSites minimize(PlacedSites start, int iterations, const SurfaceProjection& projection,
+                     PenalizedEnergy& energy, const parallel::Workers& workers,
+                     parallel::Monitor& monitor) {
+  Iterate at{std::move(start), {}};
+  at.evaluation = energy.evaluate(at.placed);
+  PlacedSites best = at.placed;
+  Score best_score = at.evaluation.score;
+  Patience patience(best_score);
+  optimize::LbfgsHistory history(7);
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    const double done = static_cast<double>(iteration) / iterations;
+    if (!monitor.tick(done, best_score.obtuse)) break;
+    const std::vector<Vec3> direction = step_direction(history, at.placed, at.evaluation, workers);
+    Iterate next = line_search(at, direction, projection, energy, workers);
+    history.add(differences(next.placed.sites, at.placed.sites),
+                differences(next.evaluation.gradient, at.evaluation.gradient), workers);
+    at = std::move(next);
+    if (at.evaluation.score < best_score) {
+      best_score = at.evaluation.score;
+      best = at.placed;
+    }
+    if (patience.exhausted(best_score)) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<Vec3> sites,
                                      const PaperOptions& options, const parallel::Workers& workers,
                                      parallel::Monitor& monitor) {
   const SurfaceProjection projection(surface, workers);
+  PlacedSites placed = projection.place(sites);
+  resample_bad_valences(surface, projection, placed, options.valence_rounds, options.seed, workers,
+                        monitor);
   PenalizedEnergy energy(surface, options, workers);
-  PlacedSites at = projection.place(sites);
-  const Index left = resample_bad_valences(surface, projection, at, options.valence_rounds,
-                                           options.seed, workers, monitor);
-#ifdef PAPER_STANDIN
-  fprintf(stderr, "bad valences left %d\n", left);
-#endif
-  Evaluation here = energy.evaluate(at);
-  PlacedSites best = at;
-  Score best_score = here.score;
-  optimize::LbfgsHistory history(7);
-  for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    const double done = static_cast<double>(iteration) / options.iterations;
-    if (!monitor.tick(done, best_score.obtuse)) break;
-    const std::vector<Vec3> direction = step_direction(history, at, here, workers);
-    const double slope = optimize::dot(here.gradient, direction, workers);
-    // Armijo's rule; after a few halvings the step is taken all the same, since the penalty may
-    // have jumped at a flip and the next evaluation starts afresh.
-    double step = 1;
-    PlacedSites trial = projection.step(at, direction, step);
-    Evaluation there = energy.evaluate(trial);
-    for (int halvings = 0;
-         halvings < kMaxHalvings && !(there.score.energy <= here.score.energy + 1e-4 * step * slope);
-         ++halvings) {
-      step *= 0.5;
-      trial = projection.step(at, direction, step);
-      there = energy.evaluate(trial);
-    }
-    history.add(differences(trial.sites, at.sites), differences(there.gradient, here.gradient),
-                workers);
-    at = std::move(trial);
-    here = std::move(there);
-    if (here.score < best_score) {
-      best_score = here.score;
-      best = at;
-    }
-#ifdef PAPER_STANDIN
-    fprintf(stderr, "it %d step %g E %.6f obtuse %d small %d\n", iteration, step, here.score.energy,
-            here.score.obtuse, here.score.small);
-#endif
-  }
-  return best.sites;
+  return minimize(std::move(placed), options.iterations, projection, energy, workers, monitor)
+      .sites;
 }
 
 }  // namespace nonobtuse::remesh

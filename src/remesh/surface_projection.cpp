@@ -8,8 +8,7 @@ namespace {
 constexpr std::size_t kChunk = 512;
 }
 
-SurfaceProjection::SurfaceProjection(const mesh::Surface& surface,
-                                     const parallel::Workers& workers)
+SurfaceProjection::SurfaceProjection(const mesh::Surface& surface, const parallel::Workers& workers)
     : surface_(surface), workers_(workers), bvh_(surface.vertices, surface.triangles, workers) {}
 
 PlacedSites SurfaceProjection::place(std::span<const Vec3> points) const {

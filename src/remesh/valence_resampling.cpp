@@ -18,15 +18,15 @@ class Neighborhood {
   Neighborhood(const RestrictedDiagram& diagram, std::size_t sites)
       : start_(sites + 1, 0), triangle_count_(sites, 0) {
     for (const auto& e : diagram.edges) {
-      ++start_[e.i + 1];
-      ++start_[e.j + 1];
+      ++start_[e.site + 1];
+      ++start_[e.other + 1];
     }
     for (std::size_t i = 0; i < sites; ++i) start_[i + 1] += start_[i];
     neighbors_.resize(start_[sites]);
     std::vector<Index> fill(start_.begin(), start_.end() - 1);
     for (const auto& e : diagram.edges) {
-      neighbors_[fill[e.i]++] = e.j;
-      neighbors_[fill[e.j]++] = e.i;
+      neighbors_[fill[e.site]++] = e.other;
+      neighbors_[fill[e.other]++] = e.site;
     }
     for (const Triangle& t : diagram.triangles)
       for (const Index v : t) ++triangle_count_[v];
@@ -38,9 +38,7 @@ class Neighborhood {
   [[nodiscard]] Index valence(Index i) const { return start_[i + 1] - start_[i]; }
   // A site inside whose cell is a disc has as many triangles as edges.
   [[nodiscard]] bool regular(Index i) const { return valence(i) == triangle_count_[i]; }
-  [[nodiscard]] bool bad(Index i) const {
-    return regular(i) && (valence(i) < 5 || valence(i) > 7);
-  }
+  [[nodiscard]] bool bad(Index i) const { return regular(i) && (valence(i) < 5 || valence(i) > 7); }
   // i and all within `rings` edges of it, in breadth-first order.
   [[nodiscard]] std::vector<Index> ring(Index i, int rings) const {
     std::vector<Index> found{i};
@@ -132,10 +130,10 @@ Index resample_bad_valences(const mesh::Surface& surface, const SurfaceProjectio
     }
     for (int step = 0; step < kLloydSteps; ++step) {
       if (!monitor.tick(static_cast<double>(round) / rounds)) return 0;
-      const RestrictedDiagram cells = restricted_diagram(surface, trial.sites, workers);
+      const RestrictedDiagram diagram = restricted_diagram(surface, trial.sites, workers);
       for (const Attempt& a : attempts)
         for (const Index i : a.moving)
-          projection.step(trial, i, cells.centroid[i] - trial.sites[i]);
+          projection.step(trial, i, diagram.cells.centroid[i] - trial.sites[i]);
     }
     const Neighborhood after(restricted_diagram(surface, trial.sites, workers), n);
     bool changed = false;

@@ -1,0 +1,16 @@
+#include "remesh/restricted_diagram.h"
+
+#include "rdt/restricted_delaunay.h"
+#include "rvd/candidate_lists.h"
+
+namespace nonobtuse::remesh {
+
+RestrictedDiagram restricted_diagram(const mesh::Surface& surface, std::span<const Vec3> sites,
+                                     const parallel::Workers& workers) {
+  const rvd::RestrictedVoronoi diagram = rvd::restricted_voronoi(
+      surface, sites, rvd::facet_candidates(surface, sites, workers), workers);
+  return {rvd::cell_integrals(surface, sites, diagram), rvd::dual_edges(surface, sites, diagram),
+          rdt::restricted_delaunay(diagram)};
+}
+
+}  // namespace nonobtuse::remesh
