@@ -85,7 +85,7 @@ class Scanner {
   /// A number of this line; it may be infinite or not a number.
   double number(const char* what) {
     skip_blanks();
-    if (at_line_end()) fail(std::string("the line ends where ") + what + " should be");
+    if (at_line_end()) line_ends(what);
     const char* begin = cursor_;
     if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
     double value = 0;
@@ -97,7 +97,7 @@ class Scanner {
 
   std::int64_t integer(const char* what) {
     skip_blanks();
-    if (at_line_end()) fail(std::string("the line ends where ") + what + " should be");
+    if (at_line_end()) line_ends(what);
     const std::int64_t value = leading_integer(what);
     if (!ends_token(cursor_)) not_a_number(what);
     return value;
@@ -140,6 +140,11 @@ class Scanner {
     if (end_ - cursor_ >= 2 && cursor_[1] == '\n') return 2;
     if (end_ - cursor_ >= 3 && cursor_[1] == '\r' && cursor_[2] == '\n') return 3;
     return 0;
+  }
+  [[noreturn]] void line_ends(const char* what) const {
+    const std::string missing = std::string(" ends where ") + what + " should be";
+    if (at_end()) fail("the file" + missing + ": it is truncated");
+    fail("the line" + missing);
   }
   [[noreturn]] void not_a_number(const char* what) {
     std::string token;

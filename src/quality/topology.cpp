@@ -41,7 +41,7 @@ std::size_t corner_at(const quality::EdgeSide& side, const std::vector<Triangle>
 }
 
 // A fan is a set of corners of one vertex joined across edges; a boundary loop, a set of fans
-// joined by boundary edges, so that two holes that touch in a vertex are two loops.
+// joined by boundary edges: the loops of the surface cut open at vertices of several fans.
 Index count_boundary_loops(const TriangleMesh& mesh, const quality::EdgeList& edges,
                            DisjointSets& fans) {
   DisjointSets loops(3 * mesh.triangles.size());

@@ -1,0 +1,238 @@
+// From what a file holds to a manifold, oriented surface without degenerate faces: repairs that
+// leave no doubt are made and reported, everything else is refused with its place.
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/degenerate_faces.h"
+#include "mesh/topology.h"
+#include "nonobtuse/io.h"
+#include "numeric/vec3.h"
+
+namespace nonobtuse {
+
+namespace {
+
+std::string number(Index i) { return std::to_string(i); }
+
+// Ranges and numbers before anything else, so that nothing below can fail on them.
+void check_elements(const TriangleMesh& mesh) {
+  const auto count = static_cast<Index>(mesh.vertices.size());
+  for (Index v = 0; v < count; ++v)
+    if (!is_finite(mesh.vertices[v]))
+      throw InvalidInput(
+          "Vertex " + number(v) + " has a coordinate that is not finite; repair or remove it.", v);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const Index v : mesh.triangles[t])
+      if (v < 0 || v >= count)
+        throw InvalidInput("Triangle " + std::to_string(t) + " names vertex " + number(v) +
+                               ", but there are " + number(count) + " vertices, counted from 0.",
+                           static_cast<Index>(t));
+  if (mesh.triangles.empty()) throw InvalidInput("The mesh has no triangles.");
+}
+
+class Cleaner {
+ public:
+  explicit Cleaner(const TriangleMesh& mesh) : mesh_(mesh), source_(mesh.triangles.size()) {
+    std::iota(source_.begin(), source_.end(), Index{0});
+  }
+
+  CleanResult run() {
+    drop_repeated_vertices();
+    drop_duplicates();
+    drop_degenerate_at_crowded_edges();
+    refuse_nothing_left();
+    orient();
+    refuse_several_fans("Vertex ");
+    report_unused_vertices();
+    remove_degenerate();
+    refuse_nothing_left();
+    refuse_several_fans("Once faces without area are dropped, vertex ");
+    drop_unused_vertices();
+    return {std::move(mesh_), std::move(repairs_)};
+  }
+
+ private:
+  [[nodiscard]] Index vertex_count() const { return static_cast<Index>(mesh_.vertices.size()); }
+  [[nodiscard]] bool has_no_area(Index t) const {
+    const Triangle& f = mesh_.triangles[t];
+    return mesh::collinear(mesh_.vertices[f[0]], mesh_.vertices[f[1]], mesh_.vertices[f[2]]);
+  }
+
+  void report(const std::string& what, Index count, Index first) {
+    if (count > 0) repairs_.push_back({what, count, first});
+  }
+
+  // Keeps the triangles that are not marked, in order, with their numbers in the input.
+  void drop(const std::vector<char>& marked, const std::string& what) {
+    Index kept = 0;
+    Index first = -1;
+    for (std::size_t t = 0; t < marked.size(); ++t) {
+      if (marked[t] != 0) {
+        if (first < 0) first = source_[t];
+        continue;
+      }
+      mesh_.triangles[kept] = mesh_.triangles[t];
+      source_[kept++] = source_[t];
+    }
+    report(what, static_cast<Index>(marked.size()) - kept, first);
+    mesh_.triangles.resize(kept);
+    source_.resize(kept);
+  }
+
+  void drop_repeated_vertices() {
+    std::vector<char> marked(mesh_.triangles.size(), 0);
+    for (std::size_t t = 0; t < marked.size(); ++t) {
+      const Triangle& f = mesh_.triangles[t];
+      marked[t] = f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+    }
+    drop(marked, "faces that name a vertex twice dropped");
+  }
+
+  void drop_duplicates() {
+    std::vector<std::pair<Triangle, Index>> sorted(mesh_.triangles.size());
+    for (std::size_t t = 0; t < sorted.size(); ++t) {
+      Triangle f = mesh_.triangles[t];
+      std::sort(f.begin(), f.end());
+      sorted[t] = {f, static_cast<Index>(t)};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<char> marked(mesh_.triangles.size(), 0);
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i].first != sorted[i - 1].first) continue;
+      const Index t = sorted[i].second;
+      const Index before = sorted[i - 1].second;
+      if (has_no_area(t))
+        marked[t] = marked[before] = 1;  // a pocket between two needles, or copies of one
+      else if (same_turn(mesh_.triangles[t], mesh_.triangles[before]))
+        marked[t] = 1;
+      else
+        throw InvalidInput("Triangles " + number(source_[before]) + " and " + number(source_[t]) +
+                               " have the same three vertices in opposite order; delete one of "
+                               "them or both.",
+                           source_[t]);
+    }
+    drop(marked, "duplicate faces dropped");
+  }
+
+  // Whether two triangles of the same vertices have the same orientation.
+  static bool same_turn(const Triangle& a, const Triangle& b) {
+    const auto k = std::find(b.begin(), b.end(), a[0]) - b.begin();
+    return b[(k + 1) % 3] == a[1];
+  }
+
+  // A face without area is no reason to refuse an edge that it shares with two others.
+  void drop_degenerate_at_crowded_edges() {
+    std::vector<char> marked(mesh_.triangles.size(), 0);
+    mesh::for_each_edge(mesh::edge_sides(mesh_.triangles, vertex_count()),
+                        [&](const mesh::EdgeSide* first, const mesh::EdgeSide* last) {
+                          if (last - first <= 2) return;
+                          for (const mesh::EdgeSide* s = first; s != last; ++s)
+                            if (has_no_area(s->triangle)) marked[s->triangle] = 1;
+                        });
+    drop(marked, "faces without area dropped at edges of three or more faces");
+  }
+
+  void refuse_nothing_left() const {
+    if (mesh_.triangles.empty())
+      throw InvalidInput("Every triangle is degenerate: there is no surface.", 0);
+  }
+
+  void refuse_crowded_edges(const std::vector<mesh::EdgeSide>& sides) const {
+    mesh::for_each_edge(sides, [&](const mesh::EdgeSide* first, const mesh::EdgeSide* last) {
+      if (last - first <= 2) return;
+      const auto face = [&](int i) { return number(source_[first[i].triangle]); };
+      throw InvalidInput("The edge between vertices " + number(first->low) + " and " +
+                             number(first->high) + " has " + std::to_string(last - first) +
+                             " faces (" + face(0) + ", " + face(1) + ", " + face(2) +
+                             (last - first > 3 ? ", ..." : "") +
+                             "), a surface at most two; delete the others or part the surface "
+                             "along this edge.",
+                         source_[first[2].triangle]);
+    });
+  }
+
+  void orient() {
+    const auto sides = mesh::edge_sides(mesh_.triangles, vertex_count());
+    refuse_crowded_edges(sides);
+    const mesh::Orientation orientation =
+        mesh::consistent_orientation(mesh_.triangles.size(), sides);
+    if (orientation.contradiction >= 0)
+      throw InvalidInput("The surface has one side only, as a Moebius strip: around triangle " +
+                             number(source_[orientation.contradiction]) +
+                             " no orientation fits; cut the surface open.",
+                         source_[orientation.contradiction]);
+    if (orientation.count == 0) return;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (orientation.turned[t] != 0) std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+    report("faces turned to agree with their neighbours", orientation.count,
+           source_[orientation.first]);
+  }
+
+  void refuse_several_fans(const std::string& subject) const {
+    const Index v = mesh::vertex_with_several_fans(
+        mesh_.triangles, vertex_count(), mesh::edge_sides(mesh_.triangles, vertex_count()));
+    if (v >= 0)
+      throw InvalidInput(subject + number(v) +
+                             " joins several fans of faces that touch in this point alone; give "
+                             "each fan its own copy of the vertex.",
+                         v);
+  }
+
+  void remove_degenerate() {
+    Index first = -1;
+    for (std::size_t t = mesh_.triangles.size(); t-- > 0;)
+      if (has_no_area(static_cast<Index>(t))) first = source_[t];
+    if (first < 0) return;
+    const mesh::DegenerateRemoval removal = mesh::remove_degenerate_faces(mesh_);
+    report("faces without area removed by flipping their longest edge", removal.flipped, first);
+    report("vertices merged to remove faces without area", removal.collapsed, first);
+    report("faces without area dropped", removal.dropped - removal.opened, first);
+    report("faces without area dropped that leave a slit", removal.opened, first);
+  }
+
+  // 1 for every vertex that some triangle names.
+  [[nodiscard]] std::vector<char> used_vertices() const {
+    std::vector<char> used(mesh_.vertices.size(), 0);
+    for (const Triangle& t : mesh_.triangles)
+      for (const Index v : t) used[v] = 1;
+    return used;
+  }
+
+  void report_unused_vertices() {
+    const std::vector<char> used = used_vertices();
+    const auto first = std::find(used.begin(), used.end(), 0);
+    report("unused vertices dropped", static_cast<Index>(std::count(first, used.end(), 0)),
+           static_cast<Index>(first - used.begin()));
+  }
+
+  void drop_unused_vertices() {
+    const std::vector<char> used = used_vertices();
+    std::vector<Index> number_of(used.size(), -1);
+    Index kept = 0;
+    for (Index v = 0; v < vertex_count(); ++v) {
+      if (used[v] == 0) continue;
+      mesh_.vertices[kept] = mesh_.vertices[v];
+      number_of[v] = kept++;
+    }
+    mesh_.vertices.resize(kept);
+    for (Triangle& t : mesh_.triangles)
+      for (Index& v : t) v = number_of[v];
+  }
+
+  TriangleMesh mesh_;
+  std::vector<Index> source_;  // number in the input of each triangle left
+  std::vector<Repair> repairs_;
+};
+
+}  // namespace
+
+CleanResult clean(const TriangleMesh& mesh) {
+  check_elements(mesh);
+  return Cleaner(mesh).run();
+}
+
+}  // namespace nonobtuse
