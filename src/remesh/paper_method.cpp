@@ -17,14 +17,17 @@ namespace nonobtuse::remesh {
 
 namespace {
 
-// What is best: fewest obtuse triangles, then fewest small angles, then least energy.
+// What is best: fewest cells that are no discs (there the triangles are no manifold), then fewest
+// obtuse triangles, then fewest small angles, then least energy.
 struct Score {
+  std::size_t defects = 0;
   Index obtuse = 0;
   Index small = 0;
   double energy = 0;
 
   friend bool operator<(const Score& a, const Score& b) {
-    return std::tie(a.obtuse, a.small, a.energy) < std::tie(b.obtuse, b.small, b.energy);
+    return std::tie(a.defects, a.obtuse, a.small, a.energy) <
+           std::tie(b.defects, b.obtuse, b.small, b.energy);
   }
 };
 
@@ -33,6 +36,7 @@ struct Evaluation {
   std::vector<Vec3> gradient;    // tangential
   std::vector<double> diagonal;  // of the Hessian, positive
   std::vector<double> mass;      // cells' areas
+  std::vector<Index> blocked;    // sites of defective cells and their neighbours
 };
 
 // Triangles with an angle above 90 and below 30 degrees. In doubles: this only ranks iterates.
@@ -54,6 +58,19 @@ void count_bad_triangles(std::span<const Vec3> sites, std::span<const Triangle> 
   }
 }
 
+std::vector<Index> blocked_sites(const RestrictedDiagram& diagram) {
+  if (diagram.defects.empty()) return {};
+  std::vector<bool> defective(diagram.cells.mass.size(), false);
+  for (const rdt::DefectiveCell& d : diagram.defects) defective[d.site] = true;
+  std::vector<Index> blocked;
+  for (const rdt::DefectiveCell& d : diagram.defects) blocked.push_back(d.site);
+  for (const rvd::DualEdge& e : diagram.edges) {
+    if (defective[e.site]) blocked.push_back(e.other);
+    if (defective[e.other]) blocked.push_back(e.site);
+  }
+  return blocked;
+}
+
 // The CVT energy with its penalties.
 class PenalizedEnergy {
  public:
@@ -66,7 +83,11 @@ class PenalizedEnergy {
     const rvd::CellSums& cells = diagram.cells;
     const std::size_t n = x.sites.size();
     if (hinge_scale_ < 0) hinge_scale_ = 6.23 * cells.energy / static_cast<double>(n);
-    Evaluation result{{0, 0, cells.energy}, std::vector<Vec3>(n), std::vector<double>(n), {}};
+    Evaluation result{.score = {.defects = diagram.defects.size(), .energy = cells.energy},
+                      .gradient = std::vector<Vec3>(n),
+                      .diagonal = std::vector<double>(n),
+                      .mass = cells.mass,
+                      .blocked = blocked_sites(diagram)};
     for (std::size_t i = 0; i < n; ++i) {
       result.gradient[i] = 2 * cells.mass[i] * (x.sites[i] - cells.centroid[i]);
       result.diagonal[i] = 2 * cells.mass[i];
@@ -75,7 +96,6 @@ class PenalizedEnergy {
     for (std::size_t i = 0; i < n; ++i)
       result.gradient[i] -= dot(result.gradient[i], x.normals[i]) * x.normals[i];
     count_bad_triangles(x.sites, diagram.triangles, result.score);
-    result.mass = cells.mass;
     return result;
   }
 
@@ -139,6 +159,19 @@ struct Iterate {
   Evaluation evaluation;
 };
 
+// Where the surface is thin a step may let a cell reach through to the other side: the sites of
+// such cells, and their neighbours, stay where they were.
+void hold_blocked_sites(const Iterate& from, PenalizedEnergy& energy, Iterate& trial) {
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    if (trial.evaluation.score.defects <= from.evaluation.score.defects) return;
+    for (const Index i : trial.evaluation.blocked) {
+      trial.placed.sites[i] = from.placed.sites[i];
+      trial.placed.normals[i] = from.placed.normals[i];
+    }
+    trial.evaluation = energy.evaluate(trial.placed);
+  }
+}
+
 // One step along the direction. Armijo's rule, but the step is taken after two halvings all the
 // same: the gradient of Eq. 4 ignores how w changes, so that near the minimum the energy may rise
 // however short the step (8 halvings cost twice the time and gained nothing).
@@ -152,6 +185,7 @@ Iterate line_search(const Iterate& from, std::span<const Vec3> direction,
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, step *= 0.5) {
     trial.placed = projection.step(from.placed, direction, step);
     trial.evaluation = energy.evaluate(trial.placed);
+    hold_blocked_sites(from, energy, trial);
     const double allowed = from.evaluation.score.energy + 1e-4 * step * slope;
     if (trial.evaluation.score.energy <= allowed) break;
   }
@@ -165,7 +199,8 @@ class Patience {
   explicit Patience(const Score& start) : reference_(start) {}
 
   bool exhausted(const Score& best) {
-    const Score notable{reference_.obtuse, reference_.small, reference_.energy * (1 - 1e-4)};
+    Score notable = reference_;
+    notable.energy *= 1 - 1e-4;
     if (best < notable) {
       reference_ = best;
       waited_ = 0;

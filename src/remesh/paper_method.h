@@ -36,8 +36,8 @@ struct PaperOptions {
 
 /// Moves the sites (#X by 3) of a CVT until no triangle of their restricted Delaunay triangulation
 /// is obtuse, or the iterations are spent. Every trial step is projected on the surface; the best
-/// sites seen are returned, by (obtuse triangles, triangles with an angle below 30, energy).
-/// Working coordinates. Deterministic for any number of threads.
+/// sites seen are returned, by (cells that are no discs, obtuse triangles, triangles with an angle
+/// below 30, energy). Working coordinates. Deterministic for any number of threads.
 std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<Vec3> sites,
                                      const PaperOptions& options, const parallel::Workers& workers,
                                      parallel::Monitor& monitor);

@@ -9,8 +9,13 @@ RestrictedDiagram restricted_diagram(const mesh::Surface& surface, std::span<con
                                      const parallel::Workers& workers) {
   const rvd::RestrictedVoronoi diagram = rvd::restricted_voronoi(
       surface, sites, rvd::facet_candidates(surface, sites, workers), workers);
-  return {rvd::cell_integrals(surface, sites, diagram), rvd::dual_edges(surface, sites, diagram),
-          rdt::restricted_delaunay(diagram)};
+  RestrictedDiagram result{rvd::cell_integrals(surface, sites, diagram),
+                           rvd::dual_edges(surface, sites, diagram),
+                           rdt::restricted_delaunay(diagram),
+                           {}};
+  result.defects = rdt::closed_ball_defects(surface, diagram, static_cast<Index>(sites.size()),
+                                            result.triangles);
+  return result;
 }
 
 }  // namespace nonobtuse::remesh

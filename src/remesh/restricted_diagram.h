@@ -6,14 +6,16 @@
 
 #include "mesh/surface.h"
 #include "parallel/workers.h"
+#include "rdt/closed_ball.h"
 #include "rvd/restricted_voronoi.h"
 
 namespace nonobtuse::remesh {
 
 struct RestrictedDiagram {
-  rvd::CellSums cells;               ///< energy of Eq. 1, areas and centroids
-  std::vector<rvd::DualEdge> edges;  ///< pairs of cells that touch, sorted
-  std::vector<Triangle> triangles;   ///< of the restricted Delaunay triangulation
+  rvd::CellSums cells;                      ///< energy of Eq. 1, areas and centroids
+  std::vector<rvd::DualEdge> edges;         ///< pairs of cells that touch, sorted
+  std::vector<Triangle> triangles;          ///< of the restricted Delaunay triangulation
+  std::vector<rdt::DefectiveCell> defects;  ///< cells that are not discs, or meet twice
 };
 
 /// Of the exact diagram: some two to three times the time of the floating-point engine, which
