@@ -22,15 +22,14 @@ void two_product(double a, double b, double& product, double& error) {
 }
 
 // Appends unless zero.
-void push(std::vector<double>& terms, double value) {
+void push(ExpansionTerms& terms, double value) {
   if (value != 0) terms.push_back(value);
 }
 
-std::vector<double> sum_of(const std::vector<double>& e, const std::vector<double>& f) {
+ExpansionTerms sum_of(const ExpansionTerms& e, const ExpansionTerms& f) {
   if (e.empty()) return f;
   if (f.empty()) return e;
-  std::vector<double> h;
-  h.reserve(e.size() + f.size());
+  ExpansionTerms h;
   std::size_t i = 0;
   std::size_t j = 0;
   const auto next = [&] {
@@ -47,10 +46,9 @@ std::vector<double> sum_of(const std::vector<double>& e, const std::vector<doubl
   return h;
 }
 
-std::vector<double> scaled(const std::vector<double>& e, double b) {
-  std::vector<double> h;
+ExpansionTerms scaled(const ExpansionTerms& e, double b) {
+  ExpansionTerms h;
   if (e.empty() || b == 0) return h;
-  h.reserve(2 * e.size());
   double q = 0;
   double error = 0;
   two_product(e[0], b, q, error);
@@ -126,8 +124,8 @@ Expansion operator*(const Expansion& a, double b) {
 
 Expansion operator*(const Expansion& a, const Expansion& b) {
   const bool a_shorter = a.size() < b.size();
-  const std::vector<double>& shorter = a_shorter ? a.terms_ : b.terms_;
-  const std::vector<double>& longer = a_shorter ? b.terms_ : a.terms_;
+  const ExpansionTerms& shorter = a_shorter ? a.terms_ : b.terms_;
+  const ExpansionTerms& longer = a_shorter ? b.terms_ : a.terms_;
   Expansion result;
   for (const double term : shorter) result.terms_ = sum_of(result.terms_, scaled(longer, term));
   return result;

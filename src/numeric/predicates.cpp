@@ -103,6 +103,10 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double safe = kSafe * std::max({1.0, std::abs(w.x), std::abs(w.y), std::abs(w.z)});
   if (magnitude > safe && std::abs(det) > 9 * kUnit * magnitude) return sign_of(det);
   if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
+  const auto equal = [](double p, double q, double r, double s) {
+    return p == q && p == r && p == s;
+  };
+  if (equal(a.x, b.x, c.x, d.x) || equal(a.y, b.y, c.y, d.y) || equal(a.z, b.z, c.z, d.z)) return 0;
   return exactly({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z},
                  [&](const auto& number) {
                    const auto e = difference(b, a, number);

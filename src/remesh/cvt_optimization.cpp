@@ -11,7 +11,7 @@
 #include "remesh/initial_sampling.h"
 #include "spatial/hilbert_order.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 namespace {
 
 constexpr std::size_t kChunk = 4096;
@@ -211,4 +211,4 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
   return std::move(sites.points);
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

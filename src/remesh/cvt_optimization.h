@@ -13,7 +13,7 @@
 #include "parallel/workers.h"
 #include "rvd/cell_integrals.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 struct CvtOptions {
   Index sites = 0;  ///< exactly this many, >= 1
@@ -38,4 +38,4 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
                     const parallel::Workers& workers, const std::function<bool(int)>& callback);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

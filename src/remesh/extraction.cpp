@@ -10,7 +10,7 @@
 #include "rvd/localized_cells.h"
 #include "rvd/restricted_voronoi.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 Extraction extract(const mesh::Surface& surface, std::vector<Vec3> sites,
                    const parallel::Workers& workers, parallel::Monitor& monitor) {
@@ -29,4 +29,4 @@ Extraction extract(const mesh::Surface& surface, std::vector<Vec3> sites,
   return result;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -9,7 +9,7 @@
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 enum class ExtractionRoute { Dual, Repaired, Collapsed };
 
@@ -25,4 +25,4 @@ struct Extraction {
 Extraction extract(const mesh::Surface& surface, std::vector<Vec3> sites,
                    const parallel::Workers& workers, parallel::Monitor& monitor);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -7,7 +7,7 @@
 #include "numeric/random.h"
 #include "rvd/facet_pieces.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 Components connected_components(const mesh::Surface& surface) {
   Components result;
@@ -141,4 +141,4 @@ SampledSites sample_strata(const mesh::Surface& surface, const Components& compo
   return result;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

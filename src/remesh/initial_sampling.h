@@ -7,7 +7,7 @@
 
 #include "mesh/surface.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 /// Connected components of the surface.
 struct Components {
@@ -33,4 +33,4 @@ struct SampledSites {
 SampledSites sample_strata(const mesh::Surface& surface, const Components& components,
                            const std::vector<Index>& quota, std::uint64_t seed);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

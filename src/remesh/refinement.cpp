@@ -13,7 +13,7 @@
 #include "refine/flips.h"
 #include "refine/global_descent.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 namespace {
 
 constexpr Index kSamplesPerVertex = 8;
@@ -94,4 +94,4 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   return Refinement(surface, mesh, options, workers, monitor).run();
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -7,7 +7,7 @@
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 struct RefinementOptions {
   double min_angle = 40;  ///< degrees, bounds to reach; [46, 74] is possible on smooth surfaces
@@ -24,4 +24,4 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
              const RefinementOptions& options, const parallel::Workers& workers,
              parallel::Monitor& monitor);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

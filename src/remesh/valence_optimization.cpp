@@ -2,7 +2,7 @@
 
 #include "refine/flips.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 Index optimize_valence(const mesh::Surface&, mesh::EditableMesh& mesh, const parallel::Workers&,
                        parallel::Monitor&) {
@@ -13,4 +13,4 @@ Index optimize_valence(const mesh::Surface&, mesh::EditableMesh& mesh, const par
   return bad;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -7,7 +7,7 @@
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 /// Brings every interior vertex to valence 5, 6 or 7 by edits that keep the number of vertices and
 /// the topology, as far as it can. Working coordinates (area / #V = 1). Returns the number of bad
@@ -15,4 +15,4 @@ namespace nonobtuse::remesh {
 Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
                        const parallel::Workers& workers, parallel::Monitor& monitor);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -63,6 +63,9 @@ class TriangleBvh {
     Index first = 0;
     Index count = 0;
   };
+  template <class Accept>
+  void test_leaf(const Node& leaf, const Vec3& p, const Accept& accept, Hit& best) const;
+
   static constexpr int kMaxDepth = 96;
   // Boxes are enlarged by some ulps of the largest coordinate, and distances to them shortened, so
   // that a box is never farther than the rounded distance to any triangle in it.
@@ -78,34 +81,45 @@ TriangleBvh::Hit TriangleBvh::closest_if(const Vec3& p, double limit, const Acce
   Hit best;
   best.squared_distance = limit;
   if (nodes_.empty()) return best;
-  std::array<std::pair<double, Index>, kMaxDepth> stack;
+  struct Postponed {
+    double bound;
+    Index node;
+  };
+  Postponed stack[kMaxDepth];  // not initialised: it is larger than what most queries touch
   std::size_t top = 0;
-  stack[top++] = {kShorten * nodes_[0].box.squared_distance(p), 0};
-  while (top > 0) {
-    const auto [nearest_possible, index] = stack[--top];
-    if (nearest_possible > best.squared_distance) continue;
-    const Node& node = nodes_[index];
+  Index current = 0;
+  const auto bound_of = [&](Index node) { return kShorten * nodes_[node].box.squared_distance(p); };
+  if (bound_of(0) > limit) return best;
+  while (true) {
+    const Node& node = nodes_[current];
     if (node.count == 0) {
-      std::pair<double, Index> near{kShorten * nodes_[node.first].box.squared_distance(p),
-                                    node.first};
-      std::pair<double, Index> far{kShorten * nodes_[node.first + 1].box.squared_distance(p),
-                                   node.first + 1};
-      if (far.first < near.first) std::swap(near, far);
-      if (far.first <= best.squared_distance) stack[top++] = far;
-      if (near.first <= best.squared_distance) stack[top++] = near;
-      continue;
+      Postponed near{bound_of(node.first), node.first};
+      Postponed far{bound_of(node.first + 1), node.first + 1};
+      if (far.bound < near.bound) std::swap(near, far);
+      if (far.bound <= best.squared_distance) stack[top++] = far;
+      if (near.bound <= best.squared_distance) {
+        current = near.node;
+        continue;
+      }
+    } else {
+      test_leaf(node, p, accept, best);
     }
-    for (Index i = node.first; i < node.first + node.count; ++i) {
-      const auto& [a, b, c] = corners_[i];
-      const ClosestPoint q = closest_point_on_triangle(p, a, b, c);
-      const bool nearer =
-          q.squared_distance < best.squared_distance ||
-          (q.squared_distance == best.squared_distance && order_[i] < best.triangle);
-      if (nearer && accept(order_[i]))
-        best = {order_[i], q.point, q.barycentric, q.squared_distance};
-    }
+    while (top > 0 && stack[top - 1].bound > best.squared_distance) --top;
+    if (top == 0) return best;
+    current = stack[--top].node;
   }
-  return best;
+}
+
+template <class Accept>
+void TriangleBvh::test_leaf(const Node& leaf, const Vec3& p, const Accept& accept,
+                            Hit& best) const {
+  for (Index i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    const auto& [a, b, c] = corners_[i];
+    const ClosestPoint q = closest_point_on_triangle(p, a, b, c);
+    const bool nearer = q.squared_distance < best.squared_distance ||
+                        (q.squared_distance == best.squared_distance && order_[i] < best.triangle);
+    if (nearer && accept(order_[i])) best = {order_[i], q.point, q.barycentric, q.squared_distance};
+  }
 }
 
 template <class Visit>

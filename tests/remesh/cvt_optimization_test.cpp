@@ -10,7 +10,7 @@
 #include "remesh/initial_sampling.h"
 #include "rvd/test_surfaces.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 namespace {
 
 using rvd::test::cube;
@@ -148,4 +148,4 @@ TEST(CvtOptimization, CancelledRunsStillReturnAllSites) {
 }
 
 }  // namespace
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -1,0 +1,89 @@
+#include "remesh/request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nonobtuse/error.h"
+#include "nonobtuse/io.h"
+#include "numeric/vec3.h"
+#include "remesh/normalization.h"
+
+namespace nonobtuse::pipeline {
+
+namespace {
+
+double bounding_box_diagonal(const TriangleMesh& mesh) {
+  Vec3 low = mesh.vertices.front();
+  Vec3 high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = min(low, v);
+    high = max(high, v);
+  }
+  return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+}
+
+}  // namespace
+
+void check_options(const RemeshOptions& options) {
+  const int given =
+      (options.vertices != 0) + (options.edge_length != 0) + (options.relative_edge_length != 0);
+  if (given > 1)
+    throw InvalidInput("give either a number of vertices or one edge length, not both.");
+  if (options.vertices < 0)
+    throw InvalidInput(
+        fmt::format("the number of vertices must be positive, not {}.", options.vertices));
+  for (const double length : {options.edge_length, options.relative_edge_length})
+    if (!(length >= 0) || !std::isfinite(length))
+      throw InvalidInput(
+          fmt::format("the edge length must be positive and finite, not {}.", length));
+  if (!(options.min_angle >= 0 && options.min_angle < 60))
+    throw InvalidInput(
+        fmt::format("the smallest angle must be in [0, 60) degrees, not {}.", options.min_angle));
+  if (!(options.max_angle > 60 && options.max_angle <= 90))
+    throw InvalidInput(
+        fmt::format("the largest angle must be in (60, 90] degrees, not {}.", options.max_angle));
+  if (!(options.penalty >= 0) || !std::isfinite(options.penalty))
+    throw InvalidInput(
+        fmt::format("the penalty must be non-negative and finite, not {}.", options.penalty));
+}
+
+void check_input(const TriangleMesh& input) {
+  const CleanResult cleaned = clean(input);
+  if (cleaned.repairs.empty()) return;
+  const Repair& first = cleaned.repairs.front();
+  throw InvalidInput(
+      fmt::format(
+          "the mesh needs repair ({}: {}, the first at index {}): pass it through clean() first.",
+          first.what, first.count, first.first),
+      first.first);
+}
+
+Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options) {
+  if (options.vertices > 0) {
+    if (options.vertices < 4)
+      throw TooFewVertices(
+          fmt::format("{} vertices cannot close a surface: ask for at least 4.", options.vertices),
+          4);
+    return options.vertices;
+  }
+  double h = options.edge_length;
+  if (options.relative_edge_length > 0)
+    h = options.relative_edge_length * bounding_box_diagonal(input);
+  if (h <= 0) return static_cast<Index>(std::max<std::size_t>(4, input.vertices.size()));
+  const double n = std::round(surface_area(input) / (0.5 * std::sqrt(3.0) * h * h));
+  if (!(n < 1e9))
+    throw InvalidInput(
+        fmt::format("an edge length of {} asks for {:.3g} vertices; the most is 1e9.", h, n));
+  return std::max(static_cast<Index>(n), Index{4});
+}
+
+RefinementOptions refinement_options(const RemeshOptions& options) {
+  return {.min_angle = options.min_angle,
+          .max_angle = options.max_angle,
+          .on_surface = options.on_surface};
+}
+
+}  // namespace nonobtuse::pipeline

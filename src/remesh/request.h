@@ -1,0 +1,24 @@
+// What a call asks for: options checked, input checked, the number of vertices settled.
+#pragma once
+
+#include "nonobtuse/mesh.h"
+#include "nonobtuse/options.h"
+#include "remesh/refinement.h"
+
+namespace nonobtuse::pipeline {
+
+/// Throws InvalidInput, naming the option, for values out of range or options that exclude each
+/// other.
+void check_options(const RemeshOptions& options);
+
+/// Throws InvalidInput for whatever `clean` would refuse or repair: remeshing never repairs
+/// silently.
+void check_input(const TriangleMesh& input);
+
+/// The number of output vertices: given, or from an edge length h as area / (sqrt(3)/2 h^2), the
+/// density of a regular triangulation, or the input's own. At least 4.
+Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options);
+
+RefinementOptions refinement_options(const RemeshOptions& options);
+
+}  // namespace nonobtuse::pipeline

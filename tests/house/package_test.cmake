@@ -1,0 +1,26 @@
+# Builds and runs the project in consumer/ against the library, the way `way` says:
+# find_package: installed from `build` into a scratch prefix; add_subdirectory: from `source`.
+cmake_minimum_required(VERSION 3.22)
+
+function(step)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}\nfailed (${result}):\n${output}")
+  endif()
+  message("${output}")
+endfunction()
+
+file(REMOVE_RECURSE ${scratch})
+set(arguments -G ${generator} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_CXX_FLAGS=${flags}
+  -D CMAKE_CXX_COMPILER_LAUNCHER=${launcher})
+if(way STREQUAL "find_package")
+  step(${CMAKE_COMMAND} --install ${build} --prefix ${scratch}/prefix)
+  list(APPEND arguments -D CMAKE_PREFIX_PATH=${scratch}/prefix -D CMAKE_BUILD_TYPE=Release)
+else()
+  # The same build type, and so the same objects for a compiler cache, as the project itself.
+  list(APPEND arguments -D NONOBTUSE_SOURCE=${source} -D CMAKE_BUILD_TYPE=Release)
+endif()
+step(${CMAKE_COMMAND} -S ${source}/tests/house/consumer -B ${scratch}/build ${arguments})
+step(${CMAKE_COMMAND} --build ${scratch}/build --target consumer)
+step(${scratch}/build/consumer)

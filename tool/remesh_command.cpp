@@ -1,0 +1,141 @@
+// Read, clean, remesh, certify what will be in the file, write, report.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "exit_code.h"
+#include "interrupt.h"
+#include "json_report.h"
+#include "nonobtuse/io.h"
+#include "nonobtuse/quality.h"
+#include "nonobtuse/remesh.h"
+#include "progress_bar.h"
+#include "table.h"
+
+namespace nonobtuse::tool {
+namespace {
+
+constexpr Index kTrianglesNamed = 5;
+// Above this many triangles, the distance would take longer than people wait for a table.
+constexpr std::size_t kDistanceLimit = 400'000;
+
+// What was done and how good it is.
+struct Outcome {
+  TriangleMesh input;
+  std::vector<Repair> repairs;
+  RemeshResult result;
+  TriangleMesh written;  ///< the result as a reader of the file sees it
+  Certificate goal;      ///< of `written`, against the bounds asked for
+  Certificate promise;   ///< of `written`, against [30, 90)
+  double seconds = 0;    ///< from the start until the certified file was written
+  std::optional<SurfaceDistance> distance;
+};
+
+TriangleMesh read_clean(const std::string& path, std::vector<Repair>& repairs) {
+  ReadResult read = read_mesh(path);
+  repairs = std::move(read.repairs);
+  CleanResult cleaned = clean(read.mesh);
+  repairs.insert(repairs.end(), cleaned.repairs.begin(), cleaned.repairs.end());
+  return std::move(cleaned.mesh);
+}
+
+RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMesh& input,
+                                  const std::atomic<bool>& interrupted) {
+  ProgressBar bar(progress_style(command.progress, command.quiet));
+  Context context;
+  context.threads = command.threads;
+  context.cancel = &interrupted;
+  context.progress = [&bar](const Progress& progress) {
+    bar.show(progress);
+    return true;
+  };
+  return remesh(input, command.options, context);
+}
+
+int exit_code_of(const Outcome& outcome) {
+  if (outcome.result.status == Status::Cancelled) return kCancelled;
+  return outcome.goal.certified ? kDone : kAnglesRemain;
+}
+
+const char* status_name(int code) {
+  if (code == kCancelled) return "cancelled";
+  return code == kDone ? "converged" : "angles_remain";
+}
+
+void print_json(const RemeshCommand& command, const Outcome& outcome, int code) {
+  Json json{{"command", "remesh"},
+            {"input", command.input},
+            {"output", command.output.path},
+            {"status", status_name(code)},
+            {"exit_code", code},
+            {"options", to_json(command.options)},
+            {"repairs", to_json(outcome.repairs)},
+            {"before", to_json(measure_angles(outcome.input))},
+            {"before_vertices", outcome.input.vertices.size()},
+            {"after", to_json(measure_angles(outcome.written))},
+            {"after_vertices", outcome.written.vertices.size()},
+            {"goal", to_json(outcome.goal, outcome.written, kTrianglesNamed)},
+            {"promise", to_json(outcome.promise, outcome.written, kTrianglesNamed)},
+            {"seconds", outcome.seconds},
+            {"stages", to_json(outcome.result.stages)}};
+  if (outcome.distance) json["distance"] = to_json(*outcome.distance);
+  fmt::print("{}", dump(json));
+}
+
+void print_table(const RemeshCommand& command, const Outcome& outcome) {
+  const auto count = [](const TriangleMesh& m) { return static_cast<Index>(m.vertices.size()); };
+  const Column before{"before", count(outcome.input), measure_angles(outcome.input), {}};
+  const Column after{"after", count(outcome.written), measure_angles(outcome.written),
+                     outcome.distance};
+  fmt::print("{}{}\n", repairs_text(command.input, outcome.repairs),
+             quality_table({before, after}));
+  const std::string& path = command.output.path;
+  fmt::print("{}", certificate_text(path, outcome.written, outcome.goal, kTrianglesNamed));
+  // A goal that was missed may still leave the promise kept.
+  const CertificateBounds& goal = outcome.goal.bounds;
+  if (!outcome.goal.certified && (goal.min_angle != 30 || goal.max_angle != 90))
+    fmt::print("{}", certificate_text(path, outcome.written, outcome.promise, 0));
+  if (outcome.result.status == Status::Cancelled) fmt::print("cancelled: the best mesh so far\n");
+  fmt::print("{} written, {:.2f} s from reading to the certified file\n", path, outcome.seconds);
+}
+
+}  // namespace
+
+int run(const RemeshCommand& command) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  Outcome outcome;
+  outcome.input = read_clean(command.input, outcome.repairs);
+  outcome.result = remesh_with_progress(command, outcome.input, interrupted);
+  if (outcome.result.mesh.triangles.empty()) {
+    fmt::print(stderr, "nonobtuse: cancelled before there was a mesh; nothing was written.\n");
+    return kCancelled;
+  }
+  const WriteOptions write_options{!command.output.ascii};
+  outcome.written = as_written(command.output.path, outcome.result.mesh, write_options);
+  outcome.goal = certify(outcome.written, {command.options.min_angle, command.options.max_angle});
+  outcome.promise = certify(outcome.written);
+  write_output(command.output, outcome.result.mesh);
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const int code = exit_code_of(outcome);
+  if (command.quiet && !command.json) return code;
+  const std::size_t triangles = outcome.input.triangles.size() + outcome.written.triangles.size();
+  if (!command.no_distance && code != kCancelled && triangles <= kDistanceLimit) {
+    Context context;
+    context.threads = command.threads;
+    outcome.distance = measure_distance(outcome.written, outcome.input, context);
+  }
+  if (command.json) {
+    print_json(command, outcome, code);
+  } else {
+    print_table(command, outcome);
+  }
+  return code;
+}
+
+}  // namespace nonobtuse::tool
