@@ -13,7 +13,7 @@
 #include "remesh/surface_projection.h"
 #include "remesh/valence_resampling.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 namespace {
 
@@ -256,4 +256,4 @@ std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<V
       .sites;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

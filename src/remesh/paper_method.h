@@ -11,7 +11,7 @@
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 /// Terms added to the CVT energy of Eq. 1 (uniform density, without factor 1/2), each scaled so
 /// that its weight means the same for any model and number of sites. All may be combined.
@@ -42,4 +42,4 @@ std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<V
                                      const PaperOptions& options, const parallel::Workers& workers,
                                      parallel::Monitor& monitor);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

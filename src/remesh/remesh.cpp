@@ -15,6 +15,7 @@
 #include "remesh/cvt_optimization.h"
 #include "remesh/extraction.h"
 #include "remesh/normalization.h"
+#include "remesh/paper_method.h"
 #include "remesh/refinement.h"
 #include "remesh/request.h"
 #include "remesh/valence_optimization.h"
@@ -57,6 +58,12 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   std::vector<Vec3> sites = run_stage("cvt", 0, 0.4, monitor, result, [&] {
     return pipeline::optimize_cvt(surface, {.sites = n, .seed = options.seed}, workers, monitor);
   });
+  if (options.method == Method::CvtNob)
+    sites = run_stage("obtuse removal", 0.1, 0.9, monitor, result, [&] {
+      return pipeline::optimize_paper_nob(surface, std::move(sites),
+                                          {.short_dual = options.penalty, .seed = options.seed},
+                                          workers, monitor);
+    });
   pipeline::Extraction extraction = run_stage("extraction", 0.4, 0.5, monitor, result, [&] {
     return pipeline::extract(surface, std::move(sites), workers, monitor);
   });

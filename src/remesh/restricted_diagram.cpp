@@ -3,7 +3,7 @@
 #include "rdt/restricted_delaunay.h"
 #include "rvd/candidate_lists.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 RestrictedDiagram restricted_diagram(const mesh::Surface& surface, std::span<const Vec3> sites,
                                      const parallel::Workers& workers) {
@@ -18,4 +18,4 @@ RestrictedDiagram restricted_diagram(const mesh::Surface& surface, std::span<con
   return result;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -9,7 +9,7 @@
 #include "rdt/closed_ball.h"
 #include "rvd/restricted_voronoi.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 struct RestrictedDiagram {
   rvd::CellSums cells;                      ///< energy of Eq. 1, areas and centroids
@@ -23,4 +23,4 @@ struct RestrictedDiagram {
 RestrictedDiagram restricted_diagram(const mesh::Surface& surface, std::span<const Vec3> sites,
                                      const parallel::Workers& workers);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -2,7 +2,7 @@
 
 #include "numeric/vec3.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 namespace {
 constexpr std::size_t kChunk = 512;
@@ -40,4 +40,4 @@ void SurfaceProjection::step(PlacedSites& placed, Index i, const Vec3& move) con
   placed.normals[i] = surface_.normals[hit.triangle];
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -8,7 +8,7 @@
 #include "parallel/workers.h"
 #include "spatial/triangle_bvh.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 /// Sites on the surface (#X by 3) and the unit normals of the facets under them.
 struct PlacedSites {
@@ -39,4 +39,4 @@ class SurfaceProjection {
   spatial::TriangleBvh bvh_;
 };
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -8,7 +8,7 @@
 #include "numeric/vec3.h"
 #include "remesh/restricted_diagram.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 namespace {
 
@@ -152,4 +152,4 @@ Index resample_bad_valences(const mesh::Surface& surface, const SurfaceProjectio
   return bad;
 }
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline

@@ -11,7 +11,7 @@
 #include "parallel/workers.h"
 #include "remesh/surface_projection.h"
 
-namespace nonobtuse::remesh {
+namespace nonobtuse::pipeline {
 
 /// Rounds over all bad sites that are far enough apart; an attempt is kept only where it lowers the
 /// number of bad valences, so that rounds never make things worse (the paper keeps every attempt,
@@ -21,4 +21,4 @@ Index resample_bad_valences(const mesh::Surface& surface, const SurfaceProjectio
                             PlacedSites& placed, int rounds, std::uint64_t seed,
                             const parallel::Workers& workers, parallel::Monitor& monitor);
 
-}  // namespace nonobtuse::remesh
+}  // namespace nonobtuse::pipeline
