@@ -26,7 +26,9 @@ struct Workers::Backend {
 };
 
 Workers::Workers(int threads)
-    : threads_(threads > 0 ? threads : std::max(1, tbb::info::default_concurrency())),
+    // oneTBB never runs more threads than cores and complains on stderr when asked to.
+    : threads_(std::max(1, threads > 0 ? std::min(threads, tbb::info::default_concurrency())
+                                       : tbb::info::default_concurrency())),
       backend_(threads_ > 1 ? std::make_unique<Backend>(threads_) : nullptr) {}
 
 void Workers::dispatch(std::size_t chunks, const std::function<void(std::size_t)>& run) const {

@@ -17,43 +17,83 @@ using rvd::is_edge;
 using rvd::RestrictedVoronoi;
 using rvd::Side;
 
-// Twice vertices - edges + faces of the closure of every cell, and the ends of the arcs in which it
-// meets the boundary. What two pieces share counts half in each.
+// What is counted of a cell. Its vertices, edges and faces are seen from several pieces; each piece
+// adds its share, in twelfths.
+constexpr int kWhole = 12;
 struct CellCounts {
-  std::vector<int> twice_euler;
-  std::vector<int> boundary_ends;
+  std::vector<int> euler;          // vertices - edges + faces of the closure
+  std::vector<int> boundary_ends;  // ends of the arcs in which the cell meets the boundary
 };
 
-CellCounts count_cells(const mesh::Surface& surface, const RestrictedVoronoi& diagram,
-                       Index site_count) {
-  CellCounts counts{std::vector<int>(site_count, 0), std::vector<int>(site_count, 0)};
-  std::vector<char> seen(surface.vertices.size(), 0);
-  for (Index f = 0; f < static_cast<Index>(surface.triangles.size()); ++f) {
-    const auto at_boundary = [&](Side s) { return surface.adjacent[f][edge_of(s)] < 0; };
-    for (Index p = diagram.facet_start[f]; p < diagram.facet_start[f + 1]; ++p) {
-      const Index i = diagram.site[p];
-      int twice = 2;
-      const auto sides = diagram.sides_of(p);
-      Side before = sides.back();
-      for (const Side after : sides) {
-        twice -= is_edge(after) && !at_boundary(after) ? 1 : 2;
-        if (is_edge(before) && is_edge(after)) {
-          const Index v = surface.triangles[f][3 - edge_of(before) - edge_of(after)];
-          if (!seen[v]) twice += 2;
-          seen[v] = 1;
-        } else if (is_edge(before) || is_edge(after)) {
-          const bool end = at_boundary(is_edge(before) ? before : after);
-          twice += end ? 2 : 1;
-          counts.boundary_ends[i] += end ? 1 : 0;
-        } else {
-          twice += 2;
+// Adds up the cells' counts piece by piece.
+class CellCounter {
+ public:
+  CellCounter(const mesh::Surface& surface, const RestrictedVoronoi& diagram,
+              std::span<const Index> owner, Index site_count)
+      : surface_(surface),
+        diagram_(diagram),
+        owner_(owner),
+        seen_(surface.vertices.size(), 0),
+        counts_{std::vector<int>(site_count, 0), std::vector<int>(site_count, 0)} {}
+
+  CellCounts run() {
+    for (Index f = 0; f < static_cast<Index>(surface_.triangles.size()); ++f)
+      for (Index p = diagram_.facet_start[f]; p < diagram_.facet_start[f + 1]; ++p) {
+        const auto sides = diagram_.sides_of(p);
+        int sum = kWhole;
+        Side before = sides.back();
+        for (const Side after : sides) {
+          sum += corner(f, p, before, after) - side(f, p, after);
+          before = after;
         }
-        before = after;
+        counts_.euler[owner_[p]] += sum;
       }
-      counts.twice_euler[i] += twice;
-    }
+    return std::move(counts_);
   }
-  return counts;
+
+ private:
+  [[nodiscard]] bool at_boundary(Index f, Side s) const {
+    return surface_.adjacent[f][edge_of(s)] < 0;
+  }
+  // Whether the piece across a bisector belongs to the same cell.
+  [[nodiscard]] bool same(Index f, Index p, Side s) const {
+    return owner_[diagram_.find(f, s)] == owner_[p];
+  }
+
+  [[nodiscard]] int side(Index f, Index p, Side s) const {
+    const bool alone = is_edge(s) ? at_boundary(f, s) : !same(f, p, s);
+    return alone ? kWhole : kWhole / 2;
+  }
+
+  int corner(Index f, Index p, Side before, Side after) {
+    if (is_edge(before) && is_edge(after)) {
+      const Index v = surface_.triangles[f][3 - edge_of(before) - edge_of(after)];
+      return std::exchange(seen_[v], 1) ? 0 : kWhole;
+    }
+    if (is_edge(before) || is_edge(after)) {
+      const bool end = at_boundary(f, is_edge(before) ? before : after);
+      const bool inner = same(f, p, is_edge(before) ? after : before);
+      if (end && !inner) ++counts_.boundary_ends[owner_[p]];
+      return kWhole / ((end ? 1 : 2) * (inner ? 2 : 1));
+    }
+    return kWhole / (1 + (same(f, p, before) ? 1 : 0) + (same(f, p, after) ? 1 : 0));
+  }
+
+  const mesh::Surface& surface_;
+  const RestrictedVoronoi& diagram_;
+  std::span<const Index> owner_;
+  std::vector<char> seen_;
+  CellCounts counts_;
+};
+
+// Number of connected parts of every cell: pieces of one owner joined through facet edges, and
+// inside a facet through bisectors.
+std::vector<int> part_counts(const mesh::Surface& surface, const RestrictedVoronoi& diagram,
+                             std::span<const Index> owner, Index site_count) {
+  const rvd::CellComponents parts = rvd::cell_components(surface, diagram, owner);
+  std::vector<int> count(site_count, 0);
+  for (const Index i : parts.owner) ++count[i];
+  return count;
 }
 
 // Arcs a -> b of the links of all vertices, grouped by vertex.
@@ -107,23 +147,22 @@ bool is_proper_link(std::span<std::pair<Index, Index>> arcs, bool boundary) {
 }  // namespace
 
 std::vector<DefectiveCell> closed_ball_defects(const mesh::Surface& surface,
-                                               const RestrictedVoronoi& diagram, Index site_count,
+                                               const RestrictedVoronoi& diagram,
+                                               std::span<const Index> owner, Index site_count,
                                                const std::vector<Triangle>& triangles) {
-  const rvd::CellComponents components = rvd::cell_components(surface, diagram);
-  std::vector<int> component_count(site_count, 0);
-  for (const Index i : components.site) ++component_count[i];
-  const CellCounts counts = count_cells(surface, diagram, site_count);
+  const std::vector<int> parts = part_counts(surface, diagram, owner, site_count);
+  const CellCounts counts = CellCounter(surface, diagram, owner, site_count).run();
   Links links = vertex_links(triangles, site_count);
   std::vector<DefectiveCell> defects;
   for (Index i = 0; i < site_count; ++i) {
     const std::span<std::pair<Index, Index>> arcs{links.arcs.data() + links.start[i],
                                                   links.arcs.data() + links.start[i + 1]};
     const int ends = counts.boundary_ends[i];
-    if (component_count[i] == 0) {
+    if (parts[i] == 0) {
       defects.push_back({i, CellDefect::Empty});
-    } else if (component_count[i] > 1) {
+    } else if (parts[i] > 1) {
       defects.push_back({i, CellDefect::Pieces});
-    } else if (counts.twice_euler[i] != 2) {
+    } else if (counts.euler[i] != kWhole) {
       defects.push_back({i, CellDefect::Handle});
     } else if (ends > 2 || !is_proper_link(arcs, ends == 2)) {
       defects.push_back({i, CellDefect::DoubleEdge});

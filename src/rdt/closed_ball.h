@@ -13,7 +13,7 @@ namespace nonobtuse::rdt {
 
 enum class CellDefect {
   Empty,       ///< the site owns nothing
-  Pieces,      ///< several connected pieces
+  Pieces,      ///< several connected parts
   Handle,      ///< connected, but not a disc (Euler characteristic other than 1)
   DoubleEdge,  ///< a disc that meets another cell, or the boundary, twice, or too few others
 };
@@ -23,12 +23,13 @@ struct DefectiveCell {
   CellDefect kind = CellDefect::Empty;
 };
 
-/// Cells that break the closed-ball property, by site, the first reason each; `triangles` as
-/// restricted_delaunay gives them. Empty: the triangles are a manifold homeomorphic to the surface,
-/// a vertex for every site. A cell at the boundary must meet it in one arc.
+/// Cells that break the closed-ball property, by site, the first reason each; `owner` as for
+/// restricted_delaunay, `triangles` as it gives them. Empty: the triangles are a manifold
+/// homeomorphic to the surface, a vertex for every site. A cell at the boundary must meet it in one
+/// arc.
 std::vector<DefectiveCell> closed_ball_defects(const mesh::Surface& surface,
                                                const rvd::RestrictedVoronoi& diagram,
-                                               Index site_count,
+                                               std::span<const Index> owner, Index site_count,
                                                const std::vector<Triangle>& triangles);
 
 }  // namespace nonobtuse::rdt

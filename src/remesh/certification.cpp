@@ -21,33 +21,39 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-// The nearest point of the input on the sheet a vertex belongs to, told by the normals.
-void locate_vertices(const mesh::Surface& surface, const TriangleMesh& working,
-                     const parallel::Workers& workers, RemeshResult& result) {
-  const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
-  const std::vector<Vec3> normals = vertex_normals(working);
-  result.source_triangle.resize(working.vertices.size());
-  result.barycentric.resize(working.vertices.size());
-  workers.for_each(working.vertices.size(), 256, [&](std::size_t v) {
-    const Vec3& p = working.vertices[v];
-    auto hit =
-        bvh.closest_if(p, 4.0, [&](Index t) { return dot(surface.normals[t], normals[v]) > 0; });
-    if (hit.triangle < 0) hit = bvh.closest(p);
-    result.source_triangle[v] = hit.triangle;
-    result.barycentric[v] = hit.barycentric;
-  });
-}
+// Squared distance, in edge lengths, within which the sheet told by the normal is preferred.
+constexpr double kNear = 4;
 
 }  // namespace
 
-void certify_result(const NormalizedInput& input, const mesh::EditableMesh& mesh,
-                    const RemeshOptions& options, const parallel::Workers& workers,
-                    RemeshResult& result) {
-  result.mesh = mesh.to_mesh();
-  locate_vertices(input.surface, result.mesh, workers, result);
-  for (Vec3& v : result.mesh.vertices) v = input.map.to_input(v);
+void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
+                 const parallel::Workers& workers, RemeshResult& result) {
+  const mesh::Surface& surface = input.surface;
+  const TriangleMesh working = mesh.to_mesh();
+  const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
+  const std::vector<Vec3> normals = vertex_normals(working);
+  const std::size_t first = result.mesh.vertices.size();
+  const std::size_t count = working.vertices.size();
+  result.mesh.vertices.resize(first + count);
+  result.source_triangle.resize(first + count);
+  result.barycentric.resize(first + count);
+  workers.for_each(count, 256, [&](std::size_t v) {
+    const Vec3& p = working.vertices[v];
+    auto hit =
+        bvh.closest_if(p, kNear, [&](Index t) { return dot(surface.normals[t], normals[v]) > 0; });
+    if (hit.triangle < 0) hit = bvh.closest(p);
+    result.mesh.vertices[first + v] = input.map.to_input(p);
+    result.source_triangle[first + v] = part.facet[hit.triangle];
+    result.barycentric[first + v] = hit.barycentric;
+  });
+  const auto shift = static_cast<Index>(first);
+  for (const Triangle& t : working.triangles)
+    result.mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+void certify_result(const RemeshOptions& options, RemeshResult& result) {
   result.certificate = certify(result.mesh);
-  result.goal = certify(result.mesh, {options.min_angle, std::min(options.max_angle, 90.0)});
+  result.goal = certify(result.mesh, {options.min_angle, options.max_angle});
   result.angles = measure_angles(result.mesh);
   result.status = result.goal.certified ? Status::Converged : Status::AnglesRemain;
 }

@@ -7,13 +7,16 @@
 #include "nonobtuse/result.h"
 #include "parallel/workers.h"
 #include "remesh/normalization.h"
+#include "remesh/parts.h"
 
 namespace nonobtuse::pipeline {
 
-/// Fills mesh, certificates, angles, source_triangle and barycentric of a result, and its status
-/// (Converged or AnglesRemain). The certificates speak of the input coordinates as returned.
-void certify_result(const NormalizedInput& input, const mesh::EditableMesh& mesh,
-                    const RemeshOptions& options, const parallel::Workers& workers,
-                    RemeshResult& result);
+/// Appends the mesh of one part, in input coordinates, with source_triangle and barycentric.
+void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
+                 const parallel::Workers& workers, RemeshResult& result);
+
+/// Fills certificates and angles of a finished mesh, and its status (Converged or AnglesRemain).
+/// The certificates speak of the coordinates as returned.
+void certify_result(const RemeshOptions& options, RemeshResult& result);
 
 }  // namespace nonobtuse::pipeline

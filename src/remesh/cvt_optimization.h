@@ -18,8 +18,11 @@ namespace nonobtuse::pipeline {
 struct CvtOptions {
   Index sites = 0;  ///< exactly this many, >= 1
   std::uint64_t seed = 0;
-  int iterations = 25;         ///< evaluations of the energy with all sites
-  int coarse_iterations = 25;  ///< evaluations with about a quarter of the sites
+  /// Evaluations of the energy with all sites. 10 suffice for the angle bounds after refinement and
+  /// a mean quality of .955 on smooth models; thin parts profit from more. Plain CVT, as the
+  /// paper's, wants 40 or more.
+  int iterations = 20;
+  int coarse_iterations = 20;  ///< evaluations with about a quarter of the sites
   /// How often the sites are first quartered; 0 starts from random samples at full size. Parts
   /// with fewer than 64 sites are never quartered.
   int coarse_levels = 1;

@@ -9,6 +9,10 @@
 
 namespace nonobtuse::pipeline {
 
+namespace {
+constexpr Index kFewestSites = 4;  // of a closed mesh
+}
+
 Components connected_components(const mesh::Surface& surface) {
   Components result;
   const auto facets = static_cast<Index>(surface.triangles.size());
@@ -58,39 +62,55 @@ Components connected_components(const mesh::Surface& surface) {
   return result;
 }
 
-std::vector<Index> share_sites(const Components& components, Index sites) {
+std::vector<Index> share_sites(const Components& components, Index sites,
+                               std::span<const Index> least) {
   const Index count = components.count();
-  std::vector<Index> quota(count, 0);
+  const auto needed = [&](Index c) { return least.empty() ? kFewestSites : least[c]; };
+  std::vector<Index> quota(count, -1);
   std::vector<Index> order(count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return components.area[a] > components.area[b]; });
-  // Components too small for their share of 4 are served first; the others divide what is left.
   Index left = sites;
-  double area_left = std::accumulate(components.area.begin(), components.area.end(), 0.0);
-  Index fair = count;  // order[0 .. fair) still share by area
-  while (fair > 0) {
-    const Index c = order[fair - 1];
-    const double share = area_left > 0 ? left * (components.area[c] / area_left) : 0.0;
-    if (share >= 4 || left < 4 * fair) break;
-    quota[c] = 4;
-    left -= 4;
-    area_left -= components.area[c];
-    --fair;
+  Index left_needed = 0;
+  double area_left = 0;
+  for (Index c = 0; c < count; ++c) {
+    left_needed += needed(c);
+    area_left += components.area[c];
+  }
+  if (left < left_needed) {  // not enough for all: the largest come first
+    for (const Index c : order) {
+      quota[c] = std::min(left, needed(c));
+      left -= quota[c];
+    }
+    return quota;
+  }
+  // Components whose share by area is below their need get that; the others divide what is left.
+  const auto share = [&](Index c) {
+    return area_left > 0 ? left * (components.area[c] / area_left) : 0.0;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Index k = count; k-- > 0;) {
+      const Index c = order[k];
+      if (quota[c] >= 0 || share(c) >= needed(c)) continue;
+      quota[c] = needed(c);
+      left -= quota[c];
+      area_left -= components.area[c];
+      changed = true;
+    }
   }
   std::vector<double> remainder(count, -1);
   Index given = 0;
-  for (Index k = 0; k < fair; ++k) {
-    const Index c = order[k];
-    const double share = area_left > 0 ? left * (components.area[c] / area_left) : 0.0;
-    quota[c] = std::min(static_cast<Index>(share), left - given);
-    remainder[c] = share - quota[c];
+  for (const Index c : order) {
+    if (quota[c] >= 0) continue;
+    quota[c] = std::min(static_cast<Index>(share(c)), left - given);
+    remainder[c] = share(c) - quota[c];
     given += quota[c];
   }
-  std::stable_sort(order.begin(), order.begin() + fair,
+  std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return remainder[a] > remainder[b]; });
-  for (Index k = 0; given<left; k = fair> 0 ? (k + 1) % fair : 0, ++given)
-    ++quota[order[fair > 0 ? k : 0]];
+  for (Index k = 0; given < left; k = (k + 1) % count, ++given) ++quota[order[k]];
   return quota;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/surface.h"
@@ -19,9 +20,11 @@ struct Components {
 };
 Components connected_components(const mesh::Surface& surface);
 
-/// Sites per component, in proportion to area by largest remainders, and at least 4 each (what a
-/// closed mesh needs) as long as sites >= 4 #C; with fewer sites the largest components come first.
-std::vector<Index> share_sites(const Components& components, Index sites);
+/// Sites per component, in proportion to area by largest remainders, and at least `least[c]` each
+/// (empty: 4, what a closed mesh needs) as long as there are enough; with fewer sites the largest
+/// components come first.
+std::vector<Index> share_sites(const Components& components, Index sites,
+                               std::span<const Index> least = {});
 
 struct SampledSites {
   std::vector<Vec3> points;      ///< #X by 3, on the surface, along the curve

@@ -3,12 +3,11 @@
 // the obtuse removal is replaced by refinement on the mesh (docs/pipeline.md).
 #include "nonobtuse/remesh.h"
 
-#include <chrono>
-#include <string>
+#include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
-#include "nonobtuse/io.h"
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
 #include "remesh/certification.h"
@@ -16,30 +15,65 @@
 #include "remesh/extraction.h"
 #include "remesh/normalization.h"
 #include "remesh/paper_method.h"
+#include "remesh/parts.h"
 #include "remesh/refinement.h"
 #include "remesh/request.h"
+#include "remesh/stage_clock.h"
 #include "remesh/valence_optimization.h"
 
 namespace nonobtuse {
 
 namespace {
 
-// Runs one step, with its share of the progress, and notes its time.
-template <class Step>
-auto run_stage(const char* name, double from, double to, parallel::Monitor& monitor,
-               RemeshResult& result, const Step& step) {
-  struct Timer {
-    const char* name;
-    RemeshResult& result;
-    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    ~Timer() {
-      const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
-      result.stages.push_back({name, d.count()});
+// The pipeline on one connected surface, with n vertices.
+mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const RemeshOptions& options,
+                               const parallel::Workers& workers, pipeline::StageClock& clock) {
+  parallel::Monitor& monitor = clock.monitor();
+  std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
+    return pipeline::optimize_cvt(surface, {.sites = n, .seed = options.seed}, workers, monitor);
+  });
+  if (options.method == Method::CvtNob)
+    sites = clock.run("obtuse removal", 0.1, 0.4, [&] {
+      return pipeline::optimize_paper_nob(
+          surface, std::move(sites), {.short_dual = options.penalty, .seed = options.seed}, workers,
+          monitor);
+    });
+  pipeline::Extraction extraction = clock.run("extraction", 0.4, 0.5, [&] {
+    return pipeline::extract(surface, std::move(sites), workers, monitor);
+  });
+  if (options.method != Method::Default) return std::move(extraction.mesh);
+  clock.run("valence", 0.5, 0.55,
+            [&] { return pipeline::optimize_valence(surface, extraction.mesh, workers, monitor); });
+  clock.run("refinement", 0.55, 1, [&] {
+    return pipeline::refine(surface, extraction.mesh, pipeline::refinement_options(options),
+                            workers, monitor);
+  });
+  return std::move(extraction.mesh);
+}
+
+// All parts with the vertices they were given; a part that needs more says so in `least`, and the
+// result is then incomplete.
+bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& vertices,
+                  const RemeshOptions& options, const parallel::Workers& workers,
+                  pipeline::StageClock& clock, RemeshResult& result) {
+  const Index n = std::accumulate(vertices.begin(), vertices.end(), Index{0});
+  bool complete = true;
+  double done = 0;
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const double share = 0.97 * vertices[c] / n;
+    clock.begin_part(done, done + share);
+    done += share;
+    try {
+      const pipeline::NormalizedInput input = pipeline::normalize(parts[c].mesh, vertices[c]);
+      const mesh::EditableMesh mesh =
+          remesh_part(input.surface, vertices[c], options, workers, clock);
+      if (complete) pipeline::append_part(parts[c], input, mesh, workers, result);
+    } catch (const TooFewVertices& too_few) {
+      parts[c].least = std::max(too_few.least(), vertices[c] + 1);
+      complete = false;
     }
-  };
-  monitor.begin_stage(name, from, to);
-  const Timer timer{name, result};
-  return step();
+  }
+  return complete;
 }
 
 }  // namespace
@@ -51,35 +85,19 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   const Index n = pipeline::vertex_budget(input, options);
   const parallel::Workers workers(context.threads);
   parallel::Monitor monitor(context);
-  RemeshResult result;
+  std::vector<StageTime> stages;
+  pipeline::StageClock clock(monitor, stages);
 
-  const pipeline::NormalizedInput normalized = pipeline::normalize(input, n);
-  const mesh::Surface& surface = normalized.surface;
-  std::vector<Vec3> sites = run_stage("cvt", 0, 0.4, monitor, result, [&] {
-    return pipeline::optimize_cvt(surface, {.sites = n, .seed = options.seed}, workers, monitor);
-  });
-  if (options.method == Method::CvtNob)
-    sites = run_stage("obtuse removal", 0.1, 0.9, monitor, result, [&] {
-      return pipeline::optimize_paper_nob(surface, std::move(sites),
-                                          {.short_dual = options.penalty, .seed = options.seed},
-                                          workers, monitor);
-    });
-  pipeline::Extraction extraction = run_stage("extraction", 0.4, 0.5, monitor, result, [&] {
-    return pipeline::extract(surface, std::move(sites), workers, monitor);
-  });
-  mesh::EditableMesh& mesh = extraction.mesh;
-  if (options.method == Method::Default) {
-    run_stage("valence", 0.5, 0.55, monitor, result,
-              [&] { return pipeline::optimize_valence(surface, mesh, workers, monitor); });
-    run_stage("refinement", 0.55, 0.95, monitor, result, [&] {
-      return pipeline::refine(surface, mesh, pipeline::refinement_options(options), workers,
-                              monitor);
-    });
-  }
-  run_stage("certification", 0.95, 1, monitor, result, [&] {
-    pipeline::certify_result(normalized, mesh, options, workers, result);
-    return 0;
-  });
+  // Parts that turn out to need more vertices take them from the others; `share_vertices` throws
+  // when there are no more to take, so that this ends.
+  std::vector<pipeline::Part> parts = pipeline::connected_parts(input);
+  RemeshResult result;
+  while (!remesh_parts(parts, pipeline::share_vertices(parts, n), options, workers, clock, result))
+    result = {};
+
+  clock.begin_part(0, 1);
+  clock.run("certification", 0.97, 1, [&] { pipeline::certify_result(options, result); });
+  result.stages = std::move(stages);
   if (monitor.cancelled()) result.status = Status::Cancelled;
   return result;
 }

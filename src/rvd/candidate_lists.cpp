@@ -11,7 +11,7 @@ namespace nonobtuse::rvd {
 namespace {
 
 bool dominated(const std::array<double, 3>& d, const std::array<double, 3>& by, double slack) {
-  return d[0] >= by[0] + slack && d[1] >= by[1] + slack && d[2] >= by[2] + slack;
+  return (d[0] >= by[0] + slack) & (d[1] >= by[1] + slack) & (d[2] >= by[2] + slack);
 }
 
 }  // namespace
@@ -24,11 +24,16 @@ void CandidateLister::begin(const SiteGrid& grid, std::span<const Vec3> sites,
   sites_ = sites;
   grid.gather(region, gathered_);
   const std::size_t count = gathered_.size();
-  points_.resize(count);
+  x_.resize(count);
+  y_.resize(count);
+  z_.resize(count);
   near_.assign(count, {});
   for (std::size_t i = 0; i < count; ++i) {
     local_[gathered_[i]] = static_cast<Index>(i);
-    points_[i] = sites[gathered_[i]];
+    const Vec3& x = sites[gathered_[i]];
+    x_[i] = x.x;
+    y_[i] = x.y;
+    z_[i] = x.z;
   }
 }
 
@@ -36,7 +41,9 @@ Index CandidateLister::local_of(Index site) {
   if (local_[site] < 0) {
     local_[site] = static_cast<Index>(gathered_.size());
     gathered_.push_back(site);
-    points_.push_back(sites_[site]);
+    x_.push_back(sites_[site].x);
+    y_.push_back(sites_[site].y);
+    z_.push_back(sites_[site].z);
     near_.emplace_back();
   }
   return local_[site];
@@ -50,13 +57,19 @@ void CandidateLister::announce(Index base, double radius, double margin) {
 void CandidateLister::build(Near& near, Index local) {
   near.built = true;
   near.begin = neighbors_.size();
-  const Vec3 center = points_[local];
+  const std::size_t count = x_.size();
+  const Vec3 center{x_[local], y_[local], z_[local]};
   const double limit = near.reach * near.reach;
-  for (std::size_t j = 0; j < points_.size(); ++j) {
-    const double d2 = squared_distance(center, points_[j]);
-    if (d2 <= limit && static_cast<Index>(j) != local)
-      neighbors_.push_back({d2, static_cast<Index>(j)});
+  distance2_.resize(count);
+  for (std::size_t j = 0; j < count; ++j) {  // apart from the selection: vectorises
+    const double dx = x_[j] - center.x;
+    const double dy = y_[j] - center.y;
+    const double dz = z_[j] - center.z;
+    distance2_[j] = dx * dx + dy * dy + dz * dz;
   }
+  for (std::size_t j = 0; j < count; ++j)
+    if (distance2_[j] <= limit && static_cast<Index>(j) != local)
+      neighbors_.push_back({distance2_[j], static_cast<Index>(j)});
   near.end = neighbors_.size();
   std::sort(neighbors_.begin() + static_cast<std::ptrdiff_t>(near.begin), neighbors_.end(),
             [](const Neighbor& a, const Neighbor& b) {
@@ -64,9 +77,9 @@ void CandidateLister::build(Near& near, Index local) {
             });
 }
 
-CandidateLister::Candidate CandidateLister::candidate(const std::array<Vec3, 3>& corners,
-                                                      Index local) const {
-  const Vec3& x = points_[local];
+inline CandidateLister::Candidate CandidateLister::candidate(const std::array<Vec3, 3>& corners,
+                                                             Index local) const {
+  const Vec3 x{x_[local], y_[local], z_[local]};
   return {{squared_distance(corners[0], x), squared_distance(corners[1], x),
            squared_distance(corners[2], x)},
           0,
@@ -177,7 +190,7 @@ FacetCandidates facet_candidates(const mesh::Surface& surface, std::span<const V
     for (Index p = begin; p < end; ++p) {
       const std::array<Vec3, 3> c = pieces.corners_of(p);
       hint = base[p - begin] = grid.nearest((c[0] + c[1] + c[2]) / 3, hint);
-      radius[p - begin] = farthest_corner(c, sites[hint]);
+      radius[p - begin] = std::sqrt(farthest_corner2(c, sites[hint]));
       largest = std::max(largest, radius[p - begin]);
     }
     pool.with([&](CandidateLister& lister) {

@@ -72,7 +72,8 @@ class CandidateLister {
   std::vector<Index> local_;  // #X: index among the gathered, or -1
   std::vector<Index> gathered_;
   std::span<const Vec3> sites_;
-  std::vector<Vec3> points_;
+  std::vector<double> x_, y_, z_;  // coordinates of the gathered
+  std::vector<double> distance2_;
   std::vector<Near> near_;
   std::vector<Neighbor> neighbors_;
   std::vector<Candidate> candidates_;

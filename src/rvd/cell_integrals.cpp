@@ -23,22 +23,22 @@ struct CellSums {
 
 }  // namespace
 
-// A list stays exact while no site nearby has moved by more than its margin. "Nearby" is the
-// chunk's box grown by `reach`, and `path` adds up, evaluation by evaluation, the largest step of
-// any site that is in there afterwards or stands in a list. A site further away than `reach` cannot
-// own a part of the chunk; once it comes nearer its steps count, including the one that brought it.
+// A list built with margin m stays exact while no listed site and no dropped one have moved by more
+// than 2m together. What the listed ones moved is known; for all others stands the largest step of
+// any site "nearby", that is in the chunk's box grown by `reach`, after the move. A site further
+// away than `reach` cannot own a part of the chunk; once it comes nearer its steps count,
+// including the one that brought it.
 struct CellEvaluator::Chunk {
   Index begin = 0;
   Index end = 0;
   spatial::Box box;
-  double reach = -1;  // -1: nothing listed yet
-  double path = 0;
-  double last_step = 0;
-  std::vector<double> expires;  // #pieces: the path at which the list must be renewed
-  std::vector<Index> start;     // #pieces + 1
-  std::vector<Index> entries;   // positions in `table`, by ascending site
-  std::vector<Index> table;     // the sites that stand in the lists
-  std::vector<CellSums> sums;   // per site of the table
+  double reach = -1;           // -1: nothing listed yet
+  double last_step = 0;        // largest nearby
+  std::vector<double> budget;  // #pieces: 2m less what was moved; negative: to be renewed
+  std::vector<Index> start;    // #pieces + 1
+  std::vector<Index> entries;  // positions in `table`, by ascending site
+  std::vector<Index> table;    // the sites that stand in the lists
+  std::vector<CellSums> sums;  // per site of the table
   double energy = 0;
   long long relisted = 0;
 };
@@ -49,7 +49,7 @@ struct CellEvaluator::Scratch {
   FacetClipper clipper;
   std::vector<Index> slot;  // #X: position in the new table, or -1
   std::vector<Index> gathered, base, list, start, entries, table;
-  std::vector<double> radius;
+  std::vector<double> radius, steps;
   std::vector<Vec3> points;
   std::vector<CornerDistances> distances;
   std::vector<Moments> moments;
@@ -108,20 +108,31 @@ void CellEvaluator::evaluate(std::span<const Vec3> sites, CellIntegrals& out) {
 }
 
 void CellEvaluator::refresh(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const {
-  if (chunk.reach >= 0) {
-    double moved = 0;
-    for (const Index site : chunk.table) moved = std::max(moved, step_[site]);
-    scratch.gathered.clear();
-    grid_.gather(inflated(chunk.box, chunk.reach), scratch.gathered);
-    for (const Index site : scratch.gathered) moved = std::max(moved, step_[site]);
-    chunk.last_step = moved;
-    chunk.path += moved;
-    const bool valid = std::all_of(chunk.expires.begin(), chunk.expires.end(),
-                                   [&](double e) { return chunk.path <= e; });
-    if (valid) return;
-  }
+  if (chunk.reach >= 0 && !spend_budgets(chunk, scratch)) return;
   find_bases(chunk, sites, scratch);
   relist(chunk, sites, scratch);
+}
+
+// Returns whether any list must be renewed.
+bool CellEvaluator::spend_budgets(Chunk& chunk, Scratch& scratch) const {
+  scratch.steps.clear();
+  for (const Index site : chunk.table) scratch.steps.push_back(step_[site]);
+  scratch.gathered.clear();
+  grid_.gather(inflated(chunk.box, chunk.reach), scratch.gathered);
+  double nearby = 0;
+  for (const double step : scratch.steps) nearby = std::max(nearby, step);
+  for (const Index site : scratch.gathered) nearby = std::max(nearby, step_[site]);
+  chunk.last_step = nearby;
+  if (nearby == 0) return false;
+  bool renew = false;
+  for (std::size_t p = 0; p < chunk.budget.size(); ++p) {
+    double own = 0;
+    for (Index e = chunk.start[p]; e < chunk.start[p + 1]; ++e)
+      own = std::max(own, scratch.steps[chunk.entries[e]]);
+    chunk.budget[p] -= own + nearby;
+    renew |= chunk.budget[p] < 0;
+  }
+  return renew;
 }
 
 // For every piece whose list must be renewed a site about nearest to it, out of its old list.
@@ -134,7 +145,7 @@ void CellEvaluator::find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratc
   bool all = true;
   Index hint = 0;
   for (Index p = 0; p < count; ++p) {
-    if (!first && chunk.path <= chunk.expires[p]) {
+    if (!first && chunk.budget[p] >= 0) {
       all = false;
       continue;
     }
@@ -142,17 +153,17 @@ void CellEvaluator::find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratc
     if (first) {
       hint = grid_.nearest((corners[0] + corners[1] + corners[2]) / 3, hint);
       scratch.base[p] = hint;
-      scratch.radius[p] = farthest_corner(corners, sites[hint]);
+      scratch.radius[p] = std::sqrt(farthest_corner2(corners, sites[hint]));
     } else {
       double least = std::numeric_limits<double>::infinity();
       for (Index e = chunk.start[p]; e < chunk.start[p + 1]; ++e) {
         const Index site = chunk.table[chunk.entries[e]];
-        const double r = farthest_corner(corners, sites[site]);
-        if (r >= least) continue;
-        least = r;
+        const double r2 = farthest_corner2(corners, sites[site]);
+        if (r2 >= least) continue;
+        least = r2;
         scratch.base[p] = site;
       }
-      scratch.radius[p] = least;
+      scratch.radius[p] = std::sqrt(least);
     }
     largest = std::max(largest, scratch.radius[p]);
     ++chunk.relisted;
@@ -160,7 +171,7 @@ void CellEvaluator::find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratc
   const double needed = 1.001 * largest + 2 * kLargestMargin * pieces_.spacing;
   chunk.reach = all ? needed : std::max(chunk.reach, needed);
   if (first) {
-    chunk.expires.assign(count, -1.0);
+    chunk.budget.assign(count, -1.0);
     chunk.start.assign(count + 1, 0);
   }
 }
@@ -195,7 +206,7 @@ void CellEvaluator::relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& s
       const double valid =
           scratch.lister.list(pieces_.corners_of(chunk.begin + p), scratch.base[p], radius, margin,
                               0.5 * (chunk.reach - radius), scratch.list);
-      chunk.expires[p] = chunk.path + valid;
+      chunk.budget[p] = 2 * valid;
       for (const Index site : scratch.list) add(site);
     }
     scratch.start.push_back(static_cast<Index>(scratch.entries.size()));
@@ -240,9 +251,8 @@ void CellEvaluator::integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch
       scratch.distances.resize(count);
       scratch.moments.resize(count);
       for (Index k = 0; k < count; ++k) scratch.distances[k] = distances(k);
-      scratch.clipper.clip(scratch.distances, scratch.moments);
-      for (Index k = 0; k < count; ++k)
-        if (scratch.moments[k] != Moments{}) add(k, scratch.distances[k], scratch.moments[k]);
+      for (const Index k : scratch.clipper.clip(scratch.distances, scratch.moments))
+        add(k, scratch.distances[k], scratch.moments[k]);
     }
   }
   chunk.energy = energy;

@@ -60,6 +60,7 @@ class CellEvaluator {
   struct Scratch;
 
   void refresh(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
+  bool spend_budgets(Chunk& chunk, Scratch& scratch) const;
   void find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;

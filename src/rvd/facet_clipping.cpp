@@ -1,58 +1,73 @@
 #include "rvd/facet_clipping.h"
 
-#include <algorithm>
-
 namespace nonobtuse::rvd {
 
-// A site that is nowhere nearer than another one owns nothing; of equals the lowest index stays.
-void FacetClipper::keep_undominated(std::span<const CornerDistances> d) {
+// The nearest sites of the corners, and all that are not further than each of these everywhere.
+void FacetClipper::keep_possible_owners(std::span<const CornerDistances> d) {
   alive_.clear();
   const auto count = static_cast<Index>(d.size());
+  std::array<Index, 3> nearest{0, 0, 0};
+  for (Index i = 1; i < count; ++i)
+    for (int k = 0; k < 3; ++k) nearest[k] = d[i][k] < d[nearest[k]][k] ? i : nearest[k];
+  if (nearest[0] == nearest[1] && nearest[1] == nearest[2]) {  // cells are convex
+    alive_.push_back(nearest[0]);
+    return;
+  }
+  const auto further = [&](Index i, Index k) {
+    return (d[i][0] >= d[k][0]) & (d[i][1] >= d[k][1]) & (d[i][2] >= d[k][2]);
+  };
   for (Index i = 0; i < count; ++i) {
-    bool drop = false;
-    for (Index k = 0; k < count && !drop; ++k) {
-      if (k == i || d[i][0] < d[k][0] || d[i][1] < d[k][1] || d[i][2] < d[k][2]) continue;
-      drop = k < i || d[i] != d[k];
-    }
-    if (!drop) alive_.push_back(i);
+    const bool is_nearest = i == nearest[0] || i == nearest[1] || i == nearest[2];
+    if (is_nearest || !(further(i, nearest[0]) || further(i, nearest[1]) || further(i, nearest[2])))
+      alive_.push_back(i);
   }
 }
 
+// Where distances are equal the lower index owns the point: half-planes against lower ones are
+// open, against higher ones closed, so that even sites at one place divide the triangle.
 template <bool Tagged>
 void FacetClipper::make_part(std::span<const CornerDistances> d, Index i) {
-  polygon_.assign({{0, 0}, {1, 0}, {0, 1}});
-  if constexpr (Tagged) edge_.assign(3, -1);
+  const std::size_t most = alive_.size() + 3;
+  if (polygon_.size() < most) {
+    polygon_.resize(most);
+    next_.resize(most);
+    edge_.resize(most);
+    next_edge_.resize(most);
+  }
+  polygon_[0] = {0, 0};
+  polygon_[1] = {1, 0};
+  polygon_[2] = {0, 1};
+  if constexpr (Tagged) edge_[0] = edge_[1] = edge_[2] = -1;
+  size_ = 3;
   for (const Index j : alive_) {
     if (j == i) continue;
     const double g0 = d[j][0] - d[i][0];
     const double gu = (d[j][1] - d[i][1]) - g0;
     const double gv = (d[j][2] - d[i][2]) - g0;
-    next_.clear();
-    if constexpr (Tagged) next_edge_.clear();
-    const std::size_t size = polygon_.size();
+    const auto inside = [lower = j < i](double g) { return lower ? g > 0 : g >= 0; };
+    std::size_t kept = 0;
     double g_a = g0 + gu * polygon_[0].u + gv * polygon_[0].v;
-    for (std::size_t a = 0; a < size; ++a) {
-      const Corner& pa = polygon_[a];
-      const Corner& pb = polygon_[a + 1 == size ? 0 : a + 1];
+    for (std::size_t a = 0; a < size_; ++a) {
+      const Corner pa = polygon_[a];
+      const Corner pb = polygon_[a + 1 == size_ ? 0 : a + 1];
       const double g_b = g0 + gu * pb.u + gv * pb.v;
-      if (g_a >= 0) {
-        next_.push_back(pa);
-        if constexpr (Tagged) next_edge_.push_back(edge_[a]);
+      const bool in_a = inside(g_a);
+      if (in_a) {
+        if constexpr (Tagged) next_edge_[kept] = edge_[a];
+        next_[kept++] = pa;
       }
-      if ((g_a >= 0) != (g_b >= 0)) {
+      if (in_a != inside(g_b)) {
         const double t = g_a / (g_a - g_b);
-        next_.push_back({pa.u + t * (pb.u - pa.u), pa.v + t * (pb.v - pa.v)});
         // Leaving the half-plane the bisector begins; entering it the old edge goes on.
-        if constexpr (Tagged) next_edge_.push_back(g_a >= 0 ? j : edge_[a]);
+        if constexpr (Tagged) next_edge_[kept] = in_a ? j : edge_[a];
+        next_[kept++] = {pa.u + t * (pb.u - pa.u), pa.v + t * (pb.v - pa.v)};
       }
       g_a = g_b;
     }
     polygon_.swap(next_);
     if constexpr (Tagged) edge_.swap(next_edge_);
-    if (polygon_.size() < 3) {
-      polygon_.clear();
-      return;
-    }
+    size_ = kept < 3 ? 0 : kept;
+    if (size_ == 0) return;
   }
 }
 
@@ -60,7 +75,7 @@ Moments FacetClipper::polygon_moments() const {
   double share = 0;
   double u = 0;
   double v = 0;
-  for (std::size_t k = 2; k < polygon_.size(); ++k) {
+  for (std::size_t k = 2; k < size_; ++k) {
     const Corner& a = polygon_[0];
     const Corner& b = polygon_[k - 1];
     const Corner& c = polygon_[k];
@@ -74,9 +89,9 @@ Moments FacetClipper::polygon_moments() const {
   return {share - u - v, u, v};
 }
 
-void FacetClipper::clip(std::span<const CornerDistances> d, std::span<Moments> moments) {
-  std::fill(moments.begin(), moments.end(), Moments{0, 0, 0});
-  keep_undominated(d);
+std::span<const Index> FacetClipper::clip(std::span<const CornerDistances> d,
+                                          std::span<Moments> moments) {
+  keep_possible_owners(d);
   Moments rest = kWhole;
   const auto take = [&](const Moments& m) {
     for (int k = 0; k < 3; ++k) rest[k] -= m[k];
@@ -94,16 +109,17 @@ void FacetClipper::clip(std::span<const CornerDistances> d, std::span<Moments> m
     }
   }
   moments[alive_.back()] = rest;
+  return alive_;
 }
 
 void FacetClipper::adjacent(std::span<const CornerDistances> d,
                             std::vector<std::array<Index, 2>>& pairs) {
-  keep_undominated(d);
+  keep_possible_owners(d);
   for (const Index i : alive_) {
     make_part<true>(d, i);
-    for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    for (std::size_t k = 0; k < size_; ++k) {
       const Corner& a = polygon_[k];
-      const Corner& b = polygon_[k + 1 == polygon_.size() ? 0 : k + 1];
+      const Corner& b = polygon_[k + 1 == size_ ? 0 : k + 1];
       if (edge_[k] > i && (a.u != b.u || a.v != b.v)) pairs.push_back({i, edge_[k]});
     }
   }

@@ -51,8 +51,9 @@ inline Moments first_of_two(const std::array<double, 3>& g) {
 class FacetClipper {
  public:
   /// moments[i] of the part nearest to site i, for any number of sites >= 1; ties to the lowest i.
-  /// The parts' moments add up to kWhole (the last is what the others leave).
-  void clip(std::span<const CornerDistances> d, std::span<Moments> moments);
+  /// The parts' moments add up to kWhole (the last is what the others leave). Returns the sites
+  /// that may own a part; the moments of all others are zero and not written.
+  std::span<const Index> clip(std::span<const CornerDistances> d, std::span<Moments> moments);
 
   /// Appends the pairs i < j whose parts share a piece of their bisector.
   void adjacent(std::span<const CornerDistances> d, std::vector<std::array<Index, 2>>& pairs);
@@ -61,12 +62,13 @@ class FacetClipper {
   struct Corner {
     double u, v;  // weights of corners 1 and 2
   };
-  void keep_undominated(std::span<const CornerDistances> d);
+  void keep_possible_owners(std::span<const CornerDistances> d);
   template <bool Tagged>
   void make_part(std::span<const CornerDistances> d, Index i);
   [[nodiscard]] Moments polygon_moments() const;
 
   std::vector<Index> alive_;
+  std::size_t size_ = 0;  // corners of the polygon
   std::vector<Corner> polygon_, next_;
   std::vector<Index> edge_, next_edge_;  // site across the edge that starts at each corner, or -1
 };

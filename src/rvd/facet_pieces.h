@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "mesh/surface.h"
@@ -30,10 +29,10 @@ struct FacetPieces {
   [[nodiscard]] Index chunk_count() const { return static_cast<Index>(box.size()); }
 };
 
-/// Largest distance of x to a corner, hence to any point of the triangle.
-inline double farthest_corner(const std::array<Vec3, 3>& corners, const Vec3& x) {
-  return std::sqrt(std::max({squared_distance(corners[0], x), squared_distance(corners[1], x),
-                             squared_distance(corners[2], x)}));
+/// Largest squared distance of x to a corner, hence to any point of the triangle.
+inline double farthest_corner2(const std::array<Vec3, 3>& corners, const Vec3& x) {
+  return std::max({squared_distance(corners[0], x), squared_distance(corners[1], x),
+                   squared_distance(corners[2], x)});
 }
 
 /// The box grown by `by` on all sides.

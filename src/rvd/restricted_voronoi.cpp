@@ -280,15 +280,15 @@ std::vector<DualEdge> dual_edges(const mesh::Surface& surface, std::span<const V
   return edges;
 }
 
-CellSums cell_integrals(const mesh::Surface& surface, std::span<const Vec3> sites,
-                        const RestrictedVoronoi& diagram) {
+CellSums cell_sums(const mesh::Surface& surface, std::span<const Vec3> sites,
+                   const RestrictedVoronoi& diagram, std::span<const Index> owner) {
   CellSums result;
   result.mass.assign(sites.size(), 0);
   result.centroid.assign(sites.size(), Vec3{});
   std::vector<Vec3> corners;
-  for (Index f = 0; f + 1 < static_cast<Index>(diagram.facet_start.size()); ++f) {
+  for (Index f = 0; f < static_cast<Index>(surface.triangles.size()); ++f) {
     for (Index p = diagram.facet_start[f]; p < diagram.facet_start[f + 1]; ++p) {
-      const Index i = diagram.site[p];
+      const Index i = owner[p];
       corner_positions(surface, sites, diagram, f, p, corners);
       // Fan of triangles, coordinates relative to the site.
       for (Vec3& c : corners) c -= sites[i];

@@ -87,7 +87,8 @@ struct CellSums {
   std::vector<Vec3> centroid;  ///< #X by 3; the site itself where the cell is empty
 };
 
-CellSums cell_integrals(const mesh::Surface& surface, std::span<const Vec3> sites,
-                        const RestrictedVoronoi& diagram);
+/// `owner` (#P): the cell each piece counts for, diagram.site for the plain cells.
+CellSums cell_sums(const mesh::Surface& surface, std::span<const Vec3> sites,
+                   const RestrictedVoronoi& diagram, std::span<const Index> owner);
 
 }  // namespace nonobtuse::rvd

@@ -1,15 +1,27 @@
 #include "rvd/site_grid.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 
 #include "numeric/random.h"
 
 namespace nonobtuse::rvd {
 namespace {
 
+// Cells beyond the range of a key share the outermost ones: slower, never wrong.
+constexpr std::int32_t kOutermost = (1 << 20) - 1;
+
 std::int32_t to_cell(double x) {
-  return static_cast<std::int32_t>(std::clamp(std::floor(x), -1e9, 1e9));
+  const double bound = kOutermost;
+  const double inside = x > -bound ? (x < bound ? x : bound) : -bound;
+  const auto k = static_cast<std::int32_t>(inside);  // towards zero
+  return k > inside ? k - 1 : k;
+}
+
+std::uint64_t key_of(const std::array<std::int32_t, 3>& c) {
+  std::uint64_t key = 0;
+  for (const std::int32_t k : c) key = (key << 21) | static_cast<std::uint32_t>(k + kOutermost + 1);
+  return key;
 }
 
 }  // namespace
@@ -19,11 +31,7 @@ SiteGrid::Cell SiteGrid::cell_of(const Vec3& p) const {
   return {to_cell(q.x), to_cell(q.y), to_cell(q.z)};
 }
 
-std::size_t SiteGrid::bucket_of(const Cell& c) const {
-  std::uint64_t key = 0;
-  for (const std::int32_t k : c) key = key * 0x9e3779b97f4a7c15ULL + static_cast<std::uint32_t>(k);
-  return numeric::mix64(key) & mask_;
-}
+std::size_t SiteGrid::bucket_of(std::uint64_t key) const { return numeric::mix64(key) & mask_; }
 
 void SiteGrid::build(std::span<const Vec3> sites, double cell) {
   sites_ = sites;
@@ -34,15 +42,15 @@ void SiteGrid::build(std::span<const Vec3> sites, double cell) {
   while (buckets < sites.size()) buckets *= 2;
   mask_ = buckets - 1;
   start_.assign(buckets + 1, 0);
-  std::vector<std::size_t> bucket(sites.size());
+  std::vector<std::uint64_t> key(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    bucket[i] = bucket_of(cell_of(sites[i]));
-    ++start_[bucket[i] + 1];
+    key[i] = key_of(cell_of(sites[i]));
+    ++start_[bucket_of(key[i]) + 1];
   }
   for (std::size_t b = 0; b < buckets; ++b) start_[b + 1] += start_[b];
   entries_.resize(sites.size());
   for (std::size_t i = sites.size(); i-- > 0;)  // backwards: ascending inside each bucket
-    entries_[--start_[bucket[i] + 1]] = {sites[i], cell_of(sites[i]), static_cast<Index>(i)};
+    entries_[--start_[bucket_of(key[i]) + 1]] = {sites[i], key[i], static_cast<Index>(i)};
   // Now start_[b + 1] is the start of bucket b: shift back.
   for (std::size_t b = 0; b < buckets; ++b) start_[b] = start_[b + 1];
   start_[buckets] = static_cast<Index>(sites.size());
@@ -65,15 +73,15 @@ void SiteGrid::gather(const spatial::Box& box, std::vector<Index>& out) const {
   for (std::int32_t z = low[2]; z <= high[2]; ++z)
     for (std::int32_t y = low[1]; y <= high[1]; ++y)
       for (std::int32_t x = low[0]; x <= high[0]; ++x) {
-        const Cell c{x, y, z};
-        const std::size_t b = bucket_of(c);
+        const std::uint64_t key = key_of({x, y, z});
+        const std::size_t b = bucket_of(key);
         for (Index e = start_[b]; e < start_[b + 1]; ++e)
-          if (entries_[e].cell == c && inside(entries_[e].point)) out.push_back(entries_[e].site);
+          if (entries_[e].key == key && inside(entries_[e].point)) out.push_back(entries_[e].site);
       }
 }
 
 void SiteGrid::improve(const Vec3& p, const Cell& c, double& best, Index& site) const {
-  const std::size_t b = bucket_of(c);
+  const std::size_t b = bucket_of(key_of(c));
   for (Index e = start_[b]; e < start_[b + 1]; ++e) {
     const double d = squared_distance(p, entries_[e].point);
     if (d < best || (d == best && entries_[e].site < site)) {
@@ -88,16 +96,31 @@ Index SiteGrid::nearest(const Vec3& p, Index hint) const {
   Index site = hint;
   double best = squared_distance(p, sites_[hint]);
   const Cell center = cell_of(p);
-  // Ring k of cells around p's own contains every point nearer than k cell edges (less rounding).
-  for (std::int32_t ring = 0; ring <= kRings; ++ring) {
-    const double reach = (ring - 1 - 1e-6) * cell_;
-    if (ring > 0 && best < reach * reach) return site;
-    for (std::int32_t z = -ring; z <= ring; ++z)
+  const Vec3 q = inverse_cell_ * (p - origin_);
+  // Distance of p to the cells at offset k along one axis, in cell edges, less rounding.
+  const auto gap = [](double x, std::int32_t cell, std::int32_t k) {
+    if (k == 0) return 0.0;
+    return std::max(0.0, (k > 0 ? cell + k - x : x - (cell + k + 1)) - 1e-6);
+  };
+  improve(p, center, best, site);
+  for (std::int32_t ring = 1; ring <= kRings; ++ring) {
+    const double limit = inverse_cell_ * inverse_cell_;
+    bool reached = false;
+    for (std::int32_t z = -ring; z <= ring; ++z) {
+      const double dz = gap(q.z, center[2], z);
       for (std::int32_t y = -ring; y <= ring; ++y) {
+        const double dy = gap(q.y, center[1], y);
+        if (dz * dz + dy * dy > limit * best) continue;
         const bool face = std::abs(z) == ring || std::abs(y) == ring;
-        for (std::int32_t x = -ring; x <= ring; x += face || ring == 0 ? 1 : 2 * ring)
+        for (std::int32_t x = -ring; x <= ring; x += face ? 1 : 2 * ring) {
+          const double dx = gap(q.x, center[0], x);
+          if (dx * dx + dy * dy + dz * dz > limit * best) continue;
+          reached = true;
           improve(p, {center[0] + x, center[1] + y, center[2] + z}, best, site);
+        }
       }
+    }
+    if (!reached) return site;  // further rings are further away
   }
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     const double d = squared_distance(p, sites_[i]);

@@ -27,11 +27,11 @@ class SiteGrid {
   using Cell = std::array<std::int32_t, 3>;
   struct Entry {
     Vec3 point;
-    Cell cell;
+    std::uint64_t key;  // of the cell
     Index site;
   };
   [[nodiscard]] Cell cell_of(const Vec3& p) const;
-  [[nodiscard]] std::size_t bucket_of(const Cell& c) const;
+  [[nodiscard]] std::size_t bucket_of(std::uint64_t key) const;
   void improve(const Vec3& p, const Cell& c, double& best, Index& site) const;
 
   std::span<const Vec3> sites_;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <utility>
 
 namespace nonobtuse::spatial {
 namespace {
 
-constexpr int kBits = 16;  // per axis: finer than any chunk needs
+// Per axis: finer than any chunk needs, and 33 bits of key leave 31 for the index.
+constexpr int kBits = 11;
 
 // Skilling's AxestoTranspose for three axes, then the bits interleaved.
 std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
@@ -49,15 +49,17 @@ std::vector<Index> hilbert_order(std::span<const Vec3> points) {
   const Vec3 extent = high - low;
   const double side = std::max({extent.x, extent.y, extent.z});
   const double scale = side > 0 ? ((1 << kBits) - 1) / side : 0.0;
-  std::vector<std::pair<std::uint64_t, Index>> keys(points.size());
+  std::vector<std::uint64_t> keys(points.size());  // key, then index
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 q = scale * (points[i] - low);
-    keys[i] = {hilbert_key({static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y),
-                            static_cast<std::uint32_t>(q.z)}),
-               static_cast<Index>(i)};
+    const std::uint64_t key =
+        hilbert_key({static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y),
+                     static_cast<std::uint32_t>(q.z)});
+    keys[i] = (key << 31) | i;
   }
   std::sort(keys.begin(), keys.end());
-  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = keys[i].second;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    order[i] = static_cast<Index>(keys[i] & 0x7fffffffU);
   return order;
 }
 

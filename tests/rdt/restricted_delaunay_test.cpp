@@ -25,8 +25,9 @@ Dual dual_of(const mesh::Surface& s, const std::vector<Vec3>& sites) {
   const auto diagram =
       rvd::restricted_voronoi(s, sites, rvd::facet_candidates(s, sites, serial()), serial());
   Dual d;
-  d.triangles = rdt::restricted_delaunay(diagram);
-  d.defects = rdt::closed_ball_defects(s, diagram, static_cast<Index>(sites.size()), d.triangles);
+  d.triangles = rdt::restricted_delaunay(diagram, diagram.site);
+  d.defects = rdt::closed_ball_defects(s, diagram, diagram.site, static_cast<Index>(sites.size()),
+                                       d.triangles);
   return d;
 }
 

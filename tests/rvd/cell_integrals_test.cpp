@@ -180,7 +180,7 @@ TEST(FacetClipping, PartsOfManySitesFillTheTriangle) {
     for (auto& values : d)
       for (double& value : values)
         value = trial % 2 == 0 ? static_cast<double>(random.below(4)) : random.uniform();
-    std::vector<Moments> m(count);
+    std::vector<Moments> m(count, Moments{});
     clipper.clip(d, m);
     Moments total{};
     for (std::size_t i = 0; i < count; ++i) {

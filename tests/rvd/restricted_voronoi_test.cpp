@@ -110,7 +110,7 @@ TEST(RestrictedVoronoi, AreasSumToTheFacet) {
       }
       ASSERT_NEAR(sum, c.surface.areas[f], 1e-10 * (1 + c.surface.areas[f])) << c.name;
     }
-    const CellSums cells = cell_integrals(c.surface, c.sites, d);
+    const CellSums cells = cell_sums(c.surface, c.sites, d, d.site);
     EXPECT_NEAR(std::accumulate(cells.mass.begin(), cells.mass.end(), 0.0), c.surface.area,
                 1e-9 * c.surface.area + 1e-300)
         << c.name;

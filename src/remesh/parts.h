@@ -1,0 +1,26 @@
+// A surface taken apart into its connected components. Each is remeshed on its own: sites of one
+// component can then never own a part of another, however close, nested or crossing they are
+// (localized cells between components, by construction).
+#pragma once
+
+#include <vector>
+
+#include "nonobtuse/mesh.h"
+
+namespace nonobtuse::pipeline {
+
+struct Part {
+  TriangleMesh mesh;
+  std::vector<Index> facet;  ///< #F of the part: its triangle in the whole mesh
+  double area = 0;
+  Index least = 4;  ///< vertices its topology needs at least (Heawood; 3 for a disc)
+};
+
+/// By lowest triangle index. The order of vertices and triangles is kept. The mesh must be clean.
+std::vector<Part> connected_parts(const TriangleMesh& mesh);
+
+/// n vertices shared out in proportion to area, at least `least` for each part. Throws
+/// TooFewVertices if their sum is larger than n.
+std::vector<Index> share_vertices(const std::vector<Part>& parts, Index n);
+
+}  // namespace nonobtuse::pipeline
