@@ -34,9 +34,9 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const Reme
   });
   if (options.method == Method::CvtNob)
     sites = clock.run("obtuse removal", 0.1, 0.4, [&] {
-      return pipeline::optimize_paper_nob(
-          surface, std::move(sites), {.short_dual = options.penalty, .seed = options.seed}, workers,
-          monitor);
+      return pipeline::optimize_paper_nob(surface, std::move(sites),
+                                          {.short_dual = options.penalty, .seed = options.seed},
+                                          workers, monitor);
     });
   pipeline::Extraction extraction = clock.run("extraction", 0.4, 0.5, [&] {
     return pipeline::extract(surface, std::move(sites), workers, monitor);

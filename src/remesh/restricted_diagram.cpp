@@ -9,12 +9,12 @@ RestrictedDiagram restricted_diagram(const mesh::Surface& surface, std::span<con
                                      const parallel::Workers& workers) {
   const rvd::RestrictedVoronoi diagram = rvd::restricted_voronoi(
       surface, sites, rvd::facet_candidates(surface, sites, workers), workers);
-  RestrictedDiagram result{rvd::cell_integrals(surface, sites, diagram),
-                           rvd::dual_edges(surface, sites, diagram),
-                           rdt::restricted_delaunay(diagram),
-                           {}};
-  result.defects = rdt::closed_ball_defects(surface, diagram, static_cast<Index>(sites.size()),
-                                            result.triangles);
+  RestrictedDiagram result;
+  result.cells = rvd::cell_sums(surface, sites, diagram, diagram.site);
+  result.edges = rvd::dual_edges(surface, sites, diagram);
+  result.triangles = rdt::restricted_delaunay(diagram, diagram.site);
+  result.defects = rdt::closed_ball_defects(surface, diagram, diagram.site,
+                                            static_cast<Index>(sites.size()), result.triangles);
   return result;
 }
 
