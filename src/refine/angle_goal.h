@@ -56,4 +56,7 @@ inline std::vector<Index> triangles_outside(const mesh::EditableMesh& mesh, cons
 /// Triangles with an angle of 90 degrees or more.
 Index count_obtuse(const mesh::EditableMesh& mesh);
 
+/// Mean over the triangles of Q = 6/sqrt(3) S/(p h), 1 for equilateral ones.
+double mean_quality(const mesh::EditableMesh& mesh);
+
 }  // namespace nonobtuse::refine

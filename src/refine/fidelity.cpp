@@ -113,7 +113,7 @@ void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Wo
   const spatial::TriangleBvh bvh(mesh.positions, triangles, workers);
   std::vector<Index> found(samples.size());
   workers.for_each(samples.size(), kChunk, [&](std::size_t s) {
-    const Vec3 normal = surface.normals[samples[s].facet];
+    const Vec3 normal = surface().normals[samples[s].facet];
     const auto agrees = [&](Index t) {
       return dot(area_vector(corners(mesh, old[t])), normal) >= 0;
     };
@@ -127,7 +127,7 @@ void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Wo
 
 Index Fidelity::walk_to_nearest(const mesh::EditableMesh& mesh, Index from, const Sample& sample,
                                 ClosestPoint& nearest) const {
-  const Vec3 normal = surface.normals[sample.facet];
+  const Vec3 normal = surface().normals[sample.facet];
   return walk(
       sample.point, from, nearest, [&](Index t) { return triangle_frame(mesh, t); },
       [&](Index t, int k) { return mesh.adjacent(t, k); },
@@ -168,10 +168,23 @@ void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> tri
   }
 }
 
+void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth) {
+  const auto emphasize = [&](TangentPlane& plane, const Vec3& p) {
+    if (squared_distance(p, plane.point) > far * far) plane.emphasis *= growth;
+  };
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
+    if (mesh.alive_vertex(v)) emphasize(vertex_planes[v], mesh.positions[v]);
+  for (Index t = 0; t < mesh.triangle_capacity(); ++t) {
+    if (!mesh.alive_triangle(t)) continue;
+    const std::array<Vec3, 3> p = corners(mesh, t);
+    emphasize(centroid_planes[t], (p[0] + p[1] + p[2]) / 3);
+  }
+}
+
 Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
                                        double growth, const parallel::Workers& workers) {
   // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
-  std::vector<Index> start(surface.vertices.size(), -1);
+  std::vector<Index> start(surface().vertices.size(), -1);
   std::vector<Sample> candidates;
   std::vector<Index> nearest;
   Index count = 0;
@@ -187,10 +200,10 @@ Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double fa
         if (d > far * far) sample.weight *= growth, ++count;
         continue;
       }
-      for (Index v : surface.triangles[sample.facet]) {
+      for (Index v : surface().triangles[sample.facet]) {
         if (start[v] != -1) continue;
         start[v] = t;
-        candidates.push_back({surface.vertices[v], weight, sample.facet, v});
+        candidates.push_back({surface().vertices[v], weight, sample.facet, v});
         nearest.push_back(t);
       }
     }
@@ -242,7 +255,7 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
   }
   for (Index s = all; s >= 0;) {
     const Index following = samples[s].next;
-    const Vec3 normal = surface.normals[samples[s].facet];
+    const Vec3 normal = surface().normals[samples[s].facet];
     Index best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (Index t : triangles) {
@@ -259,31 +272,31 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
 }
 
 TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const {
-  TangentPlane result{foot, surface.normals[facet], facet};
+  TangentPlane result{1, foot, surface().normals[facet], facet};
   // Where M is sharp the nearest point may lie on an edge or vertex with its facets turned far
   // away.
   const Vec3 offset = p - foot;
   const double d = length(offset);
-  if (d > 1e-6 && std::abs(dot(offset, result.normal)) < 0.5 * d) result.normal = offset / d;
+  if (d > 1e-6 && std::abs(dot(offset, result.normal)) < 0.9 * d) result.normal = offset / d;
   return result;
 }
 
 TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal) const {
-  const auto agrees = [&](Index f) { return dot(surface.normals[f], normal) >= 0; };
-  auto hit = surface_bvh.closest_if(p, 4.0, agrees);
-  if (hit.triangle < 0) hit = surface_bvh.closest(p);
+  const auto agrees = [&](Index f) { return dot(surface().normals[f], normal) >= 0; };
+  auto hit = surface_bvh_->closest_if(p, 4.0, agrees);
+  if (hit.triangle < 0) hit = surface_bvh_->closest(p);
   return plane(p, hit.point, hit.triangle);
 }
 
 TangentPlane Fidelity::walk_foot(const Vec3& p, Index facet) const {
-  const auto frame = [&](Index f) { return facet_frame(surface, f); };
-  const auto adjacent = [&](Index f, int k) { return surface.adjacent[f][k]; };
+  const auto frame = [&](Index f) { return facet_frame(surface(), f); };
+  const auto adjacent = [&](Index f, int k) { return surface().adjacent[f][k]; };
   const auto corner = [&](Index from, int k, Index to) {
-    return same_corner(surface.triangles, from, k, to);
+    return same_corner(surface().triangles, from, k, to);
   };
   ClosestPoint nearest;
   const Index f = walk(p, facet, nearest, frame, adjacent, corner, [](Index) { return true; });
-  return plane(p, facet_point(surface, f, nearest.barycentric[1], nearest.barycentric[2]), f);
+  return plane(p, facet_point(surface(), f, nearest.barycentric[1], nearest.barycentric[2]), f);
 }
 
 void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool search) {
@@ -295,23 +308,25 @@ void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool searc
     normal += a;
     weight += length(a) / 24;
   });
-  vertex_weights[v] = weight;
+  const double emphasis = plane.emphasis;
+  vertex_weights[v] = emphasis * weight;
   plane = search || plane.facet < 0 ? search_foot(mesh.positions[v], normal)
                                     : walk_foot(mesh.positions[v], plane.facet);
+  plane.emphasis = emphasis;
 }
 
 void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool search) {
   const std::array<Vec3, 3> p = corners(mesh, t);
   const Vec3 normal = area_vector(p);
   const Vec3 centroid = (p[0] + p[1] + p[2]) / 3;
-  centroid_weights[t] = 0.375 * length(normal);
   TangentPlane& plane = centroid_planes[t];
-  if (search || plane.facet < 0) {
+  const double emphasis = plane.emphasis;
+  centroid_weights[t] = 0.375 * emphasis * length(normal);
+  const Index facet = plane.facet;
+  if (facet >= 0 && !search) plane = walk_foot(centroid, facet);
+  if (facet < 0 || search || dot(surface().normals[plane.facet], normal) < 0)
     plane = search_foot(centroid, normal);
-    return;
-  }
-  plane = walk_foot(centroid, plane.facet);
-  if (dot(surface.normals[plane.facet], normal) < 0) plane = search_foot(centroid, normal);
+  plane.emphasis = emphasis;
 }
 
 void Fidelity::update_planes(const mesh::EditableMesh& mesh, const parallel::Workers& workers,

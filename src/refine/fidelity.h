@@ -29,8 +29,9 @@ struct Sample {
 
 /// Tangent plane of M under a point of T.
 struct TangentPlane {
-  Vec3 point;   ///< foot of the point
-  Vec3 normal;  ///< unit: the facet's, or the offset's direction where M is sharp
+  double emphasis = 1;  ///< factor of the weight, see emphasize_far_points
+  Vec3 point;           ///< foot of the point
+  Vec3 normal;          ///< unit: the facet's, or the offset's direction where M is sharp
   Index facet = -1;
 };
 
@@ -47,10 +48,11 @@ class Fidelity {
  public:
   /// Both must outlive this object.
   Fidelity(const mesh::Surface& of, const spatial::TriangleBvh& bvh_of)
-      : surface(of), surface_bvh(bvh_of) {}
+      : surface_(&of), surface_bvh_(&bvh_of) {}
 
-  const mesh::Surface& surface;
-  const spatial::TriangleBvh& surface_bvh;
+  [[nodiscard]] const mesh::Surface& surface() const { return *surface_; }
+  [[nodiscard]] const spatial::TriangleBvh& surface_bvh() const { return *surface_bvh_; }
+
   FidelityWeights weights;
   std::vector<Sample> samples;
   std::vector<Index> first;                   ///< #T, head of each triangle's list of samples
@@ -66,6 +68,9 @@ class Fidelity {
   void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
   void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Points of T that stick out: multiplies by `growth` the weights of vertices and centroids
+  /// farther than `far` from their tangent planes.
+  void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);
   /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
   /// samples of the given weight; of those added before, multiplies the weights by `growth` where
   /// they are still far. Returns how many are far.
@@ -94,6 +99,9 @@ class Fidelity {
   [[nodiscard]] TangentPlane walk_foot(const Vec3& p, Index facet) const;
 
  private:
+  const mesh::Surface* surface_;
+  const spatial::TriangleBvh* surface_bvh_;
+
   [[nodiscard]] Index walk_to_nearest(const mesh::EditableMesh& mesh, Index from,
                                       const Sample& sample, ClosestPoint& nearest) const;
   void sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles);

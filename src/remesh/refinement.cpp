@@ -18,9 +18,13 @@ namespace {
 
 constexpr Index kSamplesPerVertex = 8;
 constexpr int kStepsBetweenFlips = 5;
+constexpr double kFidelity = 20;  // weight at the start
+constexpr double kLeastFidelity = 6;
+constexpr double kMostFidelity = 40;
+constexpr double kMeanQuality = 0.9465;  // Q_avg aimed at by the weight
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
-constexpr double kFarGrowth = 3;
+constexpr double kFarGrowth = 2;
 
 class Refinement {
  public:
@@ -34,6 +38,7 @@ class Refinement {
         bvh_(surface.vertices, surface.triangles, workers),
         fidelity_(surface, bvh_),
         descent_(mesh, fidelity_, options.on_surface, workers) {
+    fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
     fidelity_.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
     fidelity_.search_samples(mesh, workers);
@@ -47,15 +52,28 @@ class Refinement {
     const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
     for (int round = 0; round < 3; ++round) {
       const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
+      fidelity_.emphasize_far_points(mesh_, 2 * far, kFarGrowth);
       fidelity_.emphasize_far_vertices(mesh_, far, kFarWeight, kFarGrowth, workers_);
+      adapt_weights();
       descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }
+    const auto keep_going = [&](double f) { return tick(0.75 + 0.25 * f); };
     return refine::sweep_angles(mesh_, fidelity_, {lo, hi}, options_.on_surface, workers_,
-                                [&](double f) { return tick(0.75 + 0.25 * f); });
+                                keep_going);
   }
 
  private:
   bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
+
+  // Fidelity is bought with shape, not with the angle bounds: on a smooth surface there is shape to
+  // spare, on a rough one there is not.
+  void adapt_weights() {
+    const double excess = refine::mean_quality(mesh_) - kMeanQuality;
+    const double weight = std::clamp(fidelity_.weights.to_mesh * std::exp(100 * excess),
+                                     kLeastFidelity, kMostFidelity);
+    fidelity_.weights.to_mesh = weight;
+    if (!options_.on_surface) fidelity_.weights.to_surface = weight;
+  }
 
   // L-BFGS in blocks of a few steps; flips, samples, planes and preconditioner are renewed between.
   void descend(int iterations, const energy::ShapeWeights& shape, double from, double to) {

@@ -1,16 +1,41 @@
+// The paper resamples a vertex of bad valence at random in its ring; that does not always end.
+// Here the connectivity is edited deliberately, on copies of the neighbourhood, and a sequence of
+// edits is kept if it lowers the defect and the relaxed neighbourhood is sound.
 #include "remesh/valence_optimization.h"
 
-#include "refine/flips.h"
+#include "refine/angle_goal.h"
+#include "refine/valence_mending.h"
 
 namespace nonobtuse::pipeline {
+namespace {
 
-Index optimize_valence(const mesh::Surface&, mesh::EditableMesh& mesh, const parallel::Workers&,
-                       parallel::Monitor&) {
-  Index bad = 0;
-  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
-    bad += mesh.alive_vertex(v) && !mesh.on_boundary(v) &&
-           !refine::good_valence(mesh.valence(v), false);
-  return bad;
+constexpr Index kSamplesPerVertex = 3;
+
+}  // namespace
+
+Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
+                       const parallel::Workers& workers, parallel::Monitor& monitor) {
+  const auto initial = static_cast<double>(refine::bad_valences(mesh).size());
+  if (initial == 0) return 0;
+  const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
+  // Few samples are enough to hold tips and ridges. Planes are searched where edits happen.
+  refine::Fidelity fidelity(surface, bvh);
+  fidelity.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
+  fidelity.search_samples(mesh, workers);
+  fidelity.vertex_planes.resize(mesh.vertex_capacity());
+  fidelity.vertex_weights.resize(mesh.vertex_capacity());
+  fidelity.centroid_planes.resize(mesh.triangle_capacity());
+  fidelity.centroid_weights.resize(mesh.triangle_capacity());
+  refine::TrialOptions options;
+  options.shape = energy::hinged(10, 35, 86);
+  options.goal = {35, 86};
+  double attempts = 0;
+  const Index left = refine::mend_valences(mesh, fidelity, options, false, workers, [&] {
+    attempts += 1;
+    return monitor.tick(attempts / (attempts + initial), refine::count_obtuse(mesh));
+  });
+  mesh.compact();
+  return left;
 }
 
 }  // namespace nonobtuse::pipeline

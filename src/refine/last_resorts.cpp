@@ -1,0 +1,90 @@
+// Operators as in Wang, Yan et al., Isotropic surface remeshing without large and small angles
+// (2019): flips, splits and collapses around the bad triangle; here each is tried together with
+// the flips that restore the valences, and balanced elsewhere so that the count holds.
+#include "refine/last_resorts.h"
+
+#include <tuple>
+
+#include "refine/valence_edits.h"
+#include "refine/valence_mending.h"
+
+namespace nonobtuse::refine {
+namespace {
+
+constexpr int kRings = 2;
+constexpr int kSequences = 40;
+
+bool better(const PatchScore& a, const PatchScore& b) {
+  return std::tie(a.folded, a.bad_valence, a.outside_promise, a.outside_goal) <
+         std::tie(b.folded, b.bad_valence, b.outside_promise, b.outside_goal);
+}
+
+class TriangleMender {
+ public:
+  TriangleMender(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options,
+                 const parallel::Workers& workers)
+      : mesh_(mesh), fidelity_(fidelity), options_(options), workers_(workers) {}
+
+  bool by_flips(Index t) {
+    const Patch patch(mesh_, fidelity_, mesh_.triangle(t), kRings);
+    std::vector<std::vector<Edit>> sequences =
+        search_neutral_flips(patch, local(patch, t), kSequences);
+    sequences.insert(sequences.begin(), std::vector<Edit>{});
+    return commit_if_better(patch, sequences);
+  }
+
+  bool by_pair(Index t, int net) {
+    const Patch patch(mesh_, fidelity_, mesh_.triangle(t), kRings);
+    std::vector<std::vector<Edit>> sequences;
+    for (Index v : local(patch, t))
+      for (auto& edits : search_balancing_edits(patch, v, net, 6)) sequences.push_back(edits);
+    const mesh::EditableMesh mesh_before = mesh_;
+    const Fidelity fidelity_before = fidelity_;
+    if (!commit_if_better(patch, sequences)) return false;
+    if (balance_count(mesh_, fidelity_, -net, options_, workers_)) return true;
+    mesh_ = mesh_before;
+    fidelity_ = fidelity_before;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] Triangle local(const Patch& patch, Index t) const {
+    const Triangle& v = mesh_.triangle(t);
+    return {patch.local(v[0]), patch.local(v[1]), patch.local(v[2])};
+  }
+
+  bool commit_if_better(const Patch& patch, const std::vector<std::vector<Edit>>& sequences) {
+    PatchScore after;
+    std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
+    if (!best || !std::isfinite(after.energy) || !better(after, score(patch, options_)))
+      return false;
+    best->commit(mesh_, fidelity_);
+    return true;
+  }
+
+  mesh::EditableMesh& mesh_;
+  Fidelity& fidelity_;
+  const TrialOptions& options_;
+  const parallel::Workers& workers_;
+};
+
+}  // namespace
+
+Index mend_triangles(mesh::EditableMesh& mesh, Fidelity& fidelity,
+                     const std::vector<Index>& triangles, const TrialOptions& options,
+                     const parallel::Workers& workers, const std::function<bool()>& keep_going) {
+  TriangleMender mender(mesh, fidelity, options, workers);
+  const AngleTest goal(options.goal);
+  Index changes = 0;
+  for (Index t : triangles) {
+    if (!mesh.alive_triangle(t) || goal.inside(mesh, t)) continue;
+    if (!keep_going()) break;
+    bool changed = mender.by_flips(t);
+    for (int net : {-1, 1})
+      if (!changed && mesh.alive_triangle(t)) changed = mender.by_pair(t, net);
+    changes += changed;
+  }
+  return changes;
+}
+
+}  // namespace nonobtuse::refine

@@ -1,0 +1,298 @@
+#include "refine/patch.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "refine/flips.h"
+
+namespace nonobtuse::refine {
+namespace {
+
+void sort_unique(std::vector<Index>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+// New triangles of a flip must look the way the old ones do, on the whole.
+bool flip_keeps_sides(const mesh::EditableMesh& mesh, mesh::Edge e) {
+  const mesh::Edge o = mesh.twin(e);
+  const std::vector<Vec3>& x = mesh.positions;
+  const Vec3 a = x[mesh.tail(e)], b = x[mesh.head(e)];
+  const Vec3 p = x[mesh.opposite_vertex(e)], q = x[mesh.opposite_vertex(o)];
+  const Vec3 mean = area_vector(p, a, b) + area_vector(q, b, a);
+  const double least = 0.02 * squared_length(mean);
+  return dot(area_vector(p, a, q), mean) > least && dot(area_vector(q, b, p), mean) > least;
+}
+
+// After removing a into b: no triangle of a turns over.
+bool collapse_keeps_sides(const mesh::EditableMesh& mesh, Index a, Index b) {
+  bool keeps = true;
+  for_ring(mesh, a, [&](Index t, int k) {
+    std::array<Vec3, 3> p = corners(mesh, t);
+    const Triangle& v = mesh.triangle(t);
+    if (v[0] == b || v[1] == b || v[2] == b) return;
+    const Vec3 before = area_vector(p);
+    p[k] = mesh.positions[b];
+    const Vec3 after = area_vector(p);
+    if (!(dot(before, after) > 0.2 * length(before) * length(after))) keeps = false;
+  });
+  return keeps;
+}
+
+void add_rings(const mesh::EditableMesh& mesh, std::vector<Index>& vertices, int rings) {
+  sort_unique(vertices);
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t count = vertices.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for_ring(mesh, vertices[i], [&](Index t, int) {
+        for (Index v : mesh.triangle(t)) vertices.push_back(v);
+      });
+    sort_unique(vertices);
+  }
+}
+
+// Separate fans that the triangles of a sorted list form around v.
+int fans_around(const mesh::EditableMesh& mesh, const std::vector<Index>& triangles, Index v) {
+  int fans = 0, first = -1, before = 0;
+  for_ring(mesh, v, [&](Index t, int) {
+    const int in = std::binary_search(triangles.begin(), triangles.end(), t);
+    if (first < 0) first = in;
+    fans += in && !before;
+    before = in;
+  });
+  return fans - (fans > 1 && first && before && !mesh.on_boundary(v));
+}
+
+// All triangles of the vertices `core`; vertices where these would meet in two fans join the core.
+std::vector<Index> triangles_of(const mesh::EditableMesh& mesh, std::vector<Index>& core) {
+  for (;;) {
+    std::vector<Index> triangles, vertices, pinched;
+    for (Index v : core) for_ring(mesh, v, [&](Index t, int) { triangles.push_back(t); });
+    sort_unique(triangles);
+    for (Index t : triangles)
+      for (Index v : mesh.triangle(t)) vertices.push_back(v);
+    sort_unique(vertices);
+    for (Index v : vertices)
+      if (fans_around(mesh, triangles, v) > 1) pinched.push_back(v);
+    if (pinched.empty()) return triangles;
+    core.insert(core.end(), pinched.begin(), pinched.end());
+    sort_unique(core);
+  }
+}
+
+}  // namespace
+
+bool edit_possible(const mesh::EditableMesh& mesh, const Edit& edit) {
+  const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
+  if (!e.valid()) return false;
+  switch (edit.kind) {
+    case Edit::Kind::Flip:
+      return mesh.can_flip(e) && flip_keeps_sides(mesh, e);
+    case Edit::Kind::Collapse:
+      return !mesh.on_boundary(edit.a) && mesh.can_collapse(e, edit.a) &&
+             collapse_keeps_sides(mesh, edit.a, edit.b);
+    case Edit::Kind::Split:
+      return mesh.twin(e).valid();
+  }
+  return false;
+}
+
+Index apply_edit(mesh::EditableMesh& mesh, const Edit& edit) {
+  const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
+  switch (edit.kind) {
+    case Edit::Kind::Flip:
+      mesh.flip(e);
+      return -1;
+    case Edit::Kind::Collapse:
+      mesh.collapse(e, edit.a);
+      return -1;
+    case Edit::Kind::Split:
+      return mesh.split_edge(e, 0.5 * (mesh.positions[edit.a] + mesh.positions[edit.b]));
+  }
+  return -1;
+}
+
+Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit) {
+  const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
+  std::vector<Index> concerned;
+  if (edit.kind == Edit::Kind::Collapse) {
+    mesh.triangles_around(edit.a, concerned);
+  } else {
+    concerned = {e.triangle, mesh.twin(e).triangle};
+  }
+  const Index made = apply_edit(mesh, edit);
+  for (Index t = static_cast<Index>(fidelity.first.size()); t < mesh.triangle_capacity(); ++t) {
+    fidelity.first.push_back(-1);
+    fidelity.centroid_planes.emplace_back();
+    fidelity.centroid_weights.push_back(0);
+    concerned.push_back(t);
+  }
+  fidelity.redistribute(mesh, concerned);
+  if (made >= 0) {
+    fidelity.vertex_planes.emplace_back();
+    fidelity.vertex_weights.push_back(0);
+    fidelity.update_vertex(mesh, made);
+  }
+  for (Index t : concerned)
+    if (mesh.alive_triangle(t)) fidelity.update_triangle(mesh, t);
+  return made;
+}
+
+bool PatchScore::operator<(const PatchScore& other) const {
+  return std::tie(folded, bad_valence, outside_promise, outside_goal, energy) <
+         std::tie(other.folded, other.bad_valence, other.outside_promise, other.outside_goal,
+                  other.energy);
+}
+
+int valence_defect(int valence, bool boundary) {
+  const int least = boundary ? 3 : 5, most = boundary ? 6 : 7;
+  return valence < least ? least - valence : valence > most ? valence - most : 0;
+}
+
+bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t) {
+  const Vec3 normal = normalized(area_vector(corners(mesh, t)));
+  int against = 0;
+  for (Index v : mesh.triangle(t)) {
+    const Index facet = fidelity.vertex_planes[v].facet;
+    against += facet >= 0 && dot(fidelity.surface().normals[facet], normal) < 0;
+  }
+  if (against >= 2) return true;
+  for (int k = 0; k < 3; ++k) {
+    const Index u = mesh.adjacent(t, k);
+    if (u >= 0 && dot(normalized(area_vector(corners(mesh, u))), normal) < -0.5) return true;
+  }
+  return false;
+}
+
+Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
+             std::span<const Index> center, int rings)
+    : fidelity(whole_fidelity.surface(), whole_fidelity.surface_bvh()) {
+  std::vector<Index> core(center.begin(), center.end());
+  add_rings(whole, core, rings);
+  triangle = triangles_of(whole, core);
+  for (Index t : triangle)
+    for (Index v : whole.triangle(t)) vertex.push_back(v);
+  sort_unique(vertex);
+
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  for (Index v : vertex) positions.push_back(whole.positions[v]);
+  for (Index t : triangle) {
+    const Triangle& v = whole.triangle(t);
+    triangles.push_back({local(v[0]), local(v[1]), local(v[2])});
+  }
+  mesh = mesh::EditableMesh(std::move(positions), std::move(triangles));
+
+  fidelity.weights = whole_fidelity.weights;
+  for (Index t : triangle) {
+    fidelity.centroid_planes.push_back(whole_fidelity.centroid_planes[t]);
+    fidelity.centroid_weights.push_back(whole_fidelity.centroid_weights[t]);
+    Index head = -1;
+    for (Index s = whole_fidelity.first[t]; s >= 0; s = whole_fidelity.samples[s].next) {
+      fidelity.samples.push_back(whole_fidelity.samples[s]);
+      fidelity.samples.back().next = head;
+      head = static_cast<Index>(fidelity.samples.size()) - 1;
+    }
+    fidelity.first.push_back(head);
+  }
+  for (std::size_t i = 0; i < vertex.size(); ++i) {
+    const Index v = vertex[i];
+    fidelity.vertex_planes.push_back(whole_fidelity.vertex_planes[v]);
+    fidelity.vertex_weights.push_back(whole_fidelity.vertex_weights[v]);
+    hidden_.push_back(whole.valence(v) - mesh.valence(static_cast<Index>(i)));
+    boundary_.push_back(whole.on_boundary(v));
+    inner_.push_back(std::binary_search(core.begin(), core.end(), v));
+  }
+}
+
+Index Patch::local(Index v) const {
+  return static_cast<Index>(std::lower_bound(vertex.begin(), vertex.end(), v) - vertex.begin());
+}
+
+int Patch::total_defect() const {
+  int sum = 0;
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
+    if (mesh.alive_vertex(v)) sum += defect(v);
+  return sum;
+}
+
+bool Patch::possible(const Edit& edit) const {
+  // A patch of a closed mesh may hold an edge of two border vertices twice over; and the ring of a
+  // border vertex is not known: one inner end makes the new edge's existence decidable.
+  if (edit.kind == Edit::Kind::Collapse) {
+    if (!inner(edit.a) || !inner(edit.b)) return false;
+  } else if (!inner(edit.a) && !inner(edit.b)) {
+    return false;
+  }
+  if (edit.kind == Edit::Kind::Flip) {
+    const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
+    const mesh::Edge o = e.valid() ? mesh.twin(e) : mesh::Edge{};
+    if (!o.valid()) return false;
+    if (!inner(mesh.opposite_vertex(e)) && !inner(mesh.opposite_vertex(o))) return false;
+    if (valence(edit.a) <= 3 || valence(edit.b) <= 3) return false;
+  }
+  return edit_possible(mesh, edit);
+}
+
+void Patch::remember(const Edit& edit, Index made) {
+  edits.push_back(edit);
+  if (made < 0) return;
+  vertex.push_back(-1);
+  hidden_.push_back(0);
+  boundary_.push_back(0);
+  inner_.push_back(1);
+}
+
+void Patch::apply(const Edit& edit) { remember(edit, apply_edit(mesh, edit)); }
+
+void Patch::apply_with_samples(const Edit& edit) {
+  remember(edit, apply_edit(mesh, fidelity, edit));
+}
+
+std::vector<Index> Patch::inner_vertices() const {
+  std::vector<Index> list;
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
+    if (mesh.alive_vertex(v) && inner(v) && !boundary(v)) list.push_back(v);
+  return list;
+}
+
+PatchScore Patch::score(const energy::ShapeWeights& shape, const AngleTest& promise,
+                        const AngleTest& goal) const {
+  PatchScore score;
+  score.bad_valence = total_defect();
+  for (Index t = 0; t < mesh.triangle_capacity(); ++t) {
+    if (!mesh.alive_triangle(t)) continue;
+    const std::array<Vec3, 3> p = corners(mesh, t);
+    score.folded += is_folded(mesh, fidelity, t);
+    score.outside_promise += !promise.inside(p[0], p[1], p[2]);
+    score.outside_goal += !goal.inside(p[0], p[1], p[2]);
+    score.energy += energy::triangle_shape(energy::squared_edges(p[0], p[1], p[2]), shape) +
+                    fidelity.triangle(t, p, nullptr);
+  }
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
+    if (mesh.alive_vertex(v)) score.energy += fidelity.vertex(v, mesh.positions[v], nullptr);
+  return score;
+}
+
+std::vector<Index> Patch::commit(mesh::EditableMesh& whole, Fidelity& whole_fidelity) {
+  Index next_made = 0;
+  while (next_made < static_cast<Index>(vertex.size()) && vertex[next_made] >= 0) ++next_made;
+  for (const Edit& edit : edits) {
+    const Index made =
+        apply_edit(whole, whole_fidelity, {edit.kind, vertex[edit.a], vertex[edit.b]});
+    if (made >= 0) vertex[next_made++] = made;
+  }
+  std::vector<Index> touched;
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v) {
+    if (!mesh.alive_vertex(v) || !inner(v)) continue;
+    whole.positions[vertex[v]] = mesh.positions[v];
+    for_ring(whole, vertex[v], [&](Index t, int) { touched.push_back(t); });
+  }
+  sort_unique(touched);
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
+    if (mesh.alive_vertex(v) && inner(v)) whole_fidelity.update_vertex(whole, vertex[v]);
+  whole_fidelity.rewalk(whole, touched);
+  return touched;
+}
+
+}  // namespace nonobtuse::refine

@@ -1,0 +1,90 @@
+// Trial edits with rollback: a patch is a copy of a neighbourhood, small enough to copy again for
+// every attempt; a sequence of edits that proves itself there is replayed on the whole mesh.
+#pragma once
+
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "energy/mesh_shape.h"
+#include "mesh/editable_mesh.h"
+#include "refine/angle_goal.h"
+#include "refine/fidelity.h"
+
+namespace nonobtuse::refine {
+
+/// One edit of the connectivity, by vertices.
+struct Edit {
+  enum class Kind { Flip, Collapse, Split };
+  Kind kind;
+  Index a, b;  ///< Flip, Split: the edge ab. Collapse: a disappears into b.
+};
+
+/// Whether the mesh admits the edit (topology, and for flips that no triangle turns over).
+bool edit_possible(const mesh::EditableMesh& mesh, const Edit& edit);
+/// Applies it; a Split puts the new vertex at the middle and returns it (else -1).
+Index apply_edit(mesh::EditableMesh& mesh, const Edit& edit);
+/// The same, and hands the samples of the triangles that change to those that replace them.
+Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit);
+
+/// How good a patch or mesh is: compared in the order of the members, smaller is better.
+struct PatchScore {
+  Index folded = 0;           ///< triangles turned over against the surface or a neighbour
+  Index bad_valence = 0;      ///< summed distance of the valences from the good ones
+  Index outside_promise = 0;  ///< triangles
+  Index outside_goal = 0;     ///< triangles
+  double energy = 0;
+  [[nodiscard]] bool operator<(const PatchScore& other) const;
+};
+
+/// Distance of a valence from the good ones.
+int valence_defect(int valence, bool boundary);
+
+class Patch {
+ public:
+  /// Copies the triangles that touch a vertex within `rings` rings of `center`.
+  Patch(const mesh::EditableMesh& mesh, const Fidelity& fidelity, std::span<const Index> center,
+        int rings);
+
+  mesh::EditableMesh mesh;
+  Fidelity fidelity;
+  std::vector<Index> vertex;    ///< local -> global; grows by splits
+  std::vector<Index> triangle;  ///< local -> global, of the triangles copied
+  std::vector<Edit> edits;      ///< done so far, in local vertices
+
+  /// Local index of a global vertex of the patch, before any edits.
+  [[nodiscard]] Index local(Index global) const;
+  /// Valence of local vertex v in the whole mesh.
+  [[nodiscard]] int valence(Index v) const { return mesh.valence(v) + hidden_[v]; }
+  /// Whether v is on the boundary of the whole mesh.
+  [[nodiscard]] bool boundary(Index v) const { return boundary_[v]; }
+  /// Whether all triangles of v are in the patch, so that it may move and edges at it be edited.
+  [[nodiscard]] bool inner(Index v) const { return inner_[v]; }
+  [[nodiscard]] int defect(Index v) const { return valence_defect(valence(v), boundary(v)); }
+  [[nodiscard]] int total_defect() const;
+  /// Edits that only touch what the patch knows entirely.
+  [[nodiscard]] bool possible(const Edit& edit) const;
+  /// Connectivity only: the samples are not handed on. For searching.
+  void apply(const Edit& edit);
+  /// With the samples.
+  void apply_with_samples(const Edit& edit);
+  [[nodiscard]] std::vector<Index> inner_vertices() const;
+
+  [[nodiscard]] PatchScore score(const energy::ShapeWeights& shape, const AngleTest& promise,
+                                 const AngleTest& goal) const;
+  /// Replays the edits on the whole mesh and takes over the positions. Returns the global
+  /// triangles concerned.
+  std::vector<Index> commit(mesh::EditableMesh& whole, Fidelity& whole_fidelity);
+
+ private:
+  void remember(const Edit& edit, Index made);
+
+  std::vector<int> hidden_;  // neighbours outside the patch
+  std::vector<char> boundary_, inner_;
+};
+
+/// Triangles of the mesh that are turned over against the surface under their vertices, or folded
+/// onto a neighbour (normals more than 120 degrees apart).
+bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t);
+
+}  // namespace nonobtuse::refine

@@ -1,0 +1,32 @@
+// Trying sequences of edits on copies of a patch: edit, relax, compare.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "parallel/workers.h"
+#include "refine/patch.h"
+
+namespace nonobtuse::refine {
+
+struct TrialOptions {
+  energy::ShapeWeights shape;  ///< to relax and to compare by
+  AngleGoal promise = kPromise;
+  AngleGoal goal;
+  int passes = 6;  ///< Gauss-Seidel passes over the patch, twice
+  bool on_surface = false;
+};
+
+PatchScore score(const Patch& patch, const TrialOptions& options);
+
+/// Does the edits on a copy and relaxes it; nothing if an edit is not possible.
+std::optional<Patch> try_edits(const Patch& patch, const std::vector<Edit>& edits,
+                               const TrialOptions& options);
+
+/// The best of several sequences by score, with its score; nothing if none is possible. Parallel
+/// over the sequences.
+std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
+                             const TrialOptions& options, const parallel::Workers& workers,
+                             PatchScore& best_score);
+
+}  // namespace nonobtuse::refine

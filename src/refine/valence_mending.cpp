@@ -1,0 +1,158 @@
+#include "refine/valence_mending.h"
+
+#include <algorithm>
+#include <array>
+
+#include "refine/flips.h"
+#include "refine/valence_edits.h"
+
+namespace nonobtuse::refine {
+namespace {
+
+constexpr int kPasses = 6;
+constexpr int kPlaces = 24;  // tried to balance the count
+
+struct Effort {
+  int rings, flips;
+};
+
+class Mender {
+ public:
+  Mender(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options, bool strict,
+         const parallel::Workers& workers)
+      : mesh_(mesh), fidelity_(fidelity), options_(options), strict_(strict), workers_(workers) {}
+
+  bool by_flips(Index v, const Effort& effort) {
+    const Patch patch = patch_around(v, effort.rings);
+    return commit_best(patch, search_valence_edits(patch, patch.local(v), {effort.flips, 12, 0}));
+  }
+
+  bool by_pair(Index v, const Effort& effort) {
+    const int net = mesh_.valence(v) < 6 ? -1 : 1;
+    const mesh::EditableMesh mesh_before = mesh_;
+    const Fidelity fidelity_before = fidelity_;
+    const Patch patch = patch_around(v, effort.rings);
+    const auto sequences = search_valence_edits(patch, patch.local(v), {effort.flips, 12, net});
+    if (commit_best(patch, sequences)) {
+      if (balance_count(mesh_, fidelity_, -net, options_, workers_)) return true;
+      mesh_ = mesh_before;
+      fidelity_ = fidelity_before;
+    }
+    return false;
+  }
+
+ private:
+  Patch patch_around(Index v, int rings) {
+    ensure_planes(mesh_, fidelity_, v, rings + 2);
+    const std::array<Index, 1> center{v};
+    return Patch(mesh_, fidelity_, center, rings);
+  }
+
+  bool commit_best(const Patch& patch, const std::vector<std::vector<Edit>>& sequences) {
+    PatchScore after;
+    std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
+    if (!best) return false;
+    const PatchScore before = score(patch, options_);
+    if (after.folded > before.folded || after.bad_valence >= before.bad_valence ||
+        !std::isfinite(after.energy) || (strict_ && after.outside_promise > before.outside_promise))
+      return false;
+    best->commit(mesh_, fidelity_);
+    return true;
+  }
+
+  mesh::EditableMesh& mesh_;
+  Fidelity& fidelity_;
+  const TrialOptions& options_;
+  bool strict_;
+  const parallel::Workers& workers_;
+};
+
+// Vertices by how crowded (net < 0) or roomy (net > 0) their ring is, the best places first.
+std::vector<Index> places(const mesh::EditableMesh& mesh, int net) {
+  std::vector<std::pair<double, Index>> ranked;
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v) {
+    if (!mesh.alive_vertex(v) || mesh.on_boundary(v)) continue;
+    const int valence = mesh.valence(v);
+    if (net < 0 ? valence > 5 : valence < 6) continue;
+    double area = 0;
+    for_ring(mesh, v, [&](Index t, int) { area += length(area_vector(corners(mesh, t))); });
+    ranked.emplace_back(net < 0 ? area : -area, v);
+  }
+  const std::size_t count = std::min<std::size_t>(ranked.size(), kPlaces);
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count),
+                    ranked.end());
+  std::vector<Index> best;
+  for (std::size_t i = 0; i < count; ++i) best.push_back(ranked[i].second);
+  return best;
+}
+
+}  // namespace
+
+std::vector<Index> bad_valences(const mesh::EditableMesh& mesh) {
+  std::vector<Index> bad;
+  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
+    if (mesh.alive_vertex(v) && !good_valence(mesh.valence(v), mesh.on_boundary(v)))
+      bad.push_back(v);
+  return bad;
+}
+
+void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index center, int rings) {
+  std::vector<Index> reached{center};
+  for (int ring = 0; ring <= rings; ++ring) {
+    std::vector<Index> more;
+    for (Index v : reached) {
+      if (fidelity.vertex_planes[v].facet < 0) fidelity.update_vertex(mesh, v);
+      for_ring(mesh, v, [&](Index t, int) {
+        if (fidelity.centroid_planes[t].facet < 0) fidelity.update_triangle(mesh, t);
+        for (Index u : mesh.triangle(t)) more.push_back(u);
+      });
+    }
+    std::sort(more.begin(), more.end());
+    more.erase(std::unique(more.begin(), more.end()), more.end());
+    reached.swap(more);
+  }
+  for (Index v : reached)
+    if (fidelity.vertex_planes[v].facet < 0) fidelity.update_vertex(mesh, v);
+}
+
+bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
+                   const TrialOptions& options, const parallel::Workers& workers) {
+  for (Index v : places(mesh, net)) {
+    ensure_planes(mesh, fidelity, v, 4);
+    const std::array<Index, 1> center{v};
+    const Patch patch(mesh, fidelity, center, 3);
+    const auto sequences = search_balancing_edits(patch, patch.local(v), net, 6);
+    PatchScore after;
+    std::optional<Patch> best = best_of(patch, sequences, options, workers, after);
+    if (!best) continue;
+    const PatchScore before = score(patch, options);
+    if (after.folded > before.folded || after.bad_valence > before.bad_valence ||
+        after.outside_promise > before.outside_promise || !std::isfinite(after.energy))
+      continue;
+    best->commit(mesh, fidelity);
+    return true;
+  }
+  return false;
+}
+
+Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options,
+                    bool strict, const parallel::Workers& workers,
+                    const std::function<bool()>& keep_going) {
+  Mender mender(mesh, fidelity, options, strict, workers);
+  // Cheap attempts first, on all of them; dearer ones only where these failed.
+  const std::array<Effort, 3> efforts{Effort{3, 2}, Effort{3, 4}, Effort{4, 5}};
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const std::vector<Index> bad = bad_valences(mesh);
+    if (bad.empty()) return 0;
+    const Effort effort = efforts[std::min(pass, 2)];
+    for (Index v : bad) {
+      if (!keep_going()) return static_cast<Index>(bad_valences(mesh).size());
+      if (!mesh.alive_vertex(v) || good_valence(mesh.valence(v), mesh.on_boundary(v))) continue;
+      if (mender.by_flips(v, effort)) continue;
+      if (pass >= 2 && !mesh.on_boundary(v)) mender.by_pair(v, {4, 2});
+    }
+  }
+  return static_cast<Index>(bad_valences(mesh).size());
+}
+
+}  // namespace nonobtuse::refine
