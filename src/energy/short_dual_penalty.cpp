@@ -4,26 +4,27 @@
 
 namespace nonobtuse::energy {
 
-std::vector<double> short_dual_weights(std::span<const Vec3> sites, std::span<const DualEdge> edges,
+std::vector<double> short_dual_weights(std::span<const Vec3> sites,
+                                       std::span<const rvd::DualEdge> edges,
                                        double relative_epsilon) {
   std::vector<double> weights;
   weights.reserve(edges.size());
-  for (const DualEdge& e : edges) {
-    const double l = distance(sites[e.i], sites[e.j]);
-    const double width = e.dual_length + relative_epsilon * l;
+  for (const rvd::DualEdge& e : edges) {
+    const double l = distance(sites[e.site], sites[e.other]);
+    const double width = e.length + relative_epsilon * l;
     weights.push_back(width > 0 ? l / width : 0);  // coincident sites pull nowhere
   }
   return weights;
 }
 
-double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const DualEdge> edges,
+double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const rvd::DualEdge> edges,
                               std::span<const double> weights, std::span<const Vec3> normals,
                               double scale, std::span<Vec3> gradient, std::span<double> diagonal) {
   // Serial: three passes over 3n edges, about a hundredth of the Voronoi diagram they come from.
   std::vector<Vec3> r(sites.size());
   std::vector<double> sum(sites.size(), 0);
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto [i, j, dual_length] = edges[e];
+    const auto [i, j, dual] = edges[e];
     const Vec3 pull = weights[e] * (sites[i] - sites[j]);
     r[i] += pull;
     r[j] -= pull;
@@ -40,7 +41,7 @@ double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const DualE
     diagonal[i] += 2 * scale * sum[i] * sum[i];
   }
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto [i, j, dual_length] = edges[e];
+    const auto [i, j, dual] = edges[e];
     const Vec3 g = 2 * scale * weights[e] * (r[i] - r[j]);
     gradient[i] += g;
     gradient[j] -= g;

@@ -14,19 +14,14 @@
 #include <vector>
 
 #include "nonobtuse/mesh.h"
+#include "rvd/restricted_voronoi.h"
 
 namespace nonobtuse::energy {
 
-/// Two neighbouring cells and the length of their common boundary on the surface.
-struct DualEdge {
-  Index i = -1;
-  Index j = -1;
-  double dual_length = 0;
-};
-
 /// w_ij of every edge, without unit, with epsilon = relative_epsilon |x_i - x_j| > 0: so w stays
 /// below 1 / relative_epsilon. In a regular triangulation w is sqrt(3) (for epsilon = 0).
-std::vector<double> short_dual_weights(std::span<const Vec3> sites, std::span<const DualEdge> edges,
+std::vector<double> short_dual_weights(std::span<const Vec3> sites,
+                                       std::span<const rvd::DualEdge> edges,
                                        double relative_epsilon);
 
 /// Returns scale * R for given weights, and adds its gradient (exact for frozen weights) and the
@@ -36,7 +31,7 @@ std::vector<double> short_dual_weights(std::span<const Vec3> sites, std::span<co
 /// r_i has a normal part, of the size of the mean curvature, that shrinks the surface. With unit
 /// `normals` (#X by 3, frozen) only the tangential part of each r_i counts; with none (empty) R is
 /// Eq. 4 to the letter.
-double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const DualEdge> edges,
+double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const rvd::DualEdge> edges,
                               std::span<const double> weights, std::span<const Vec3> normals,
                               double scale, std::span<Vec3> gradient, std::span<double> diagonal);
 

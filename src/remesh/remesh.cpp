@@ -14,6 +14,7 @@
 #include "remesh/cvt_optimization.h"
 #include "remesh/extraction.h"
 #include "remesh/normalization.h"
+#include "remesh/paper_method.h"
 #include "remesh/parts.h"
 #include "remesh/refinement.h"
 #include "remesh/request.h"
@@ -31,6 +32,12 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const Reme
   std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
     return pipeline::optimize_cvt(surface, {.sites = n, .seed = options.seed}, workers, monitor);
   });
+  if (options.method == Method::CvtNob)
+    sites = clock.run("obtuse removal", 0.1, 0.4, [&] {
+      return pipeline::optimize_paper_nob(surface, std::move(sites),
+                                          {.short_dual = options.penalty, .seed = options.seed},
+                                          workers, monitor);
+    });
   pipeline::Extraction extraction = clock.run("extraction", 0.4, 0.5, [&] {
     return pipeline::extract(surface, std::move(sites), workers, monitor);
   });

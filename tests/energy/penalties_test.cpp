@@ -7,9 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "energy/angle_hinge_rvd.h"
-#include "energy/circumcentre_rvd.h"
 #include "energy/short_dual_penalty.h"
+#include "energy/triangle_penalties.h"
 #include "numeric/random.h"
 #include "numeric/vec3.h"
 
@@ -22,7 +21,7 @@ constexpr double degree = std::numbers::pi / 180;
 struct Patch {
   std::vector<Vec3> sites;
   std::vector<Triangle> triangles;
-  std::vector<DualEdge> edges;
+  std::vector<rvd::DualEdge> edges;
   std::vector<Vec3> normals;
 };
 
@@ -116,9 +115,9 @@ TEST(ShortDualPenalty, VanishesInsideRegularTriangulationAndGrowsWithShortDuals)
   };
   const double regular = at_centre();  // from the patch's rim alone
   const Index centre = 3 * 7 + 3;
-  for (DualEdge& e : p.edges)
-    if (e.i == centre || e.j == centre) {
-      e.dual_length *= 0.1;
+  for (rvd::DualEdge& e : p.edges)
+    if (e.site == centre || e.other == centre) {
+      e.length *= 0.1;
       break;
     }
   EXPECT_GT(at_centre(), regular + 1);
@@ -138,64 +137,40 @@ TEST(ShortDualPenalty, TangentialPartIgnoresCurvature) {
 
 TEST(ShortDualPenalty, WeightsAreBoundedAndScaleFree) {
   Patch p = jittered_patch(7, 0.3, 5);
-  p.edges[4].dual_length = 0;
+  p.edges[4].length = 0;
   const std::vector<double> w = short_dual_weights(p.sites, p.edges, 0.1);
   EXPECT_DOUBLE_EQ(w[4], 10);
   for (const double x : w) EXPECT_TRUE(x > 0 && x <= 10 * (1 + 1e-12));
   for (Vec3& x : p.sites) x *= 1e-6;
-  for (DualEdge& e : p.edges) e.dual_length *= 1e-6;
+  for (rvd::DualEdge& e : p.edges) e.length *= 1e-6;
   const std::vector<double> small = short_dual_weights(p.sites, p.edges, 0.1);
   for (std::size_t e = 0; e < w.size(); ++e) EXPECT_NEAR(small[e], w[e], 1e-12 * w[e]);
-  p.sites[p.edges[0].i] = p.sites[p.edges[0].j];
-  p.edges[0].dual_length = 0;
+  p.sites[p.edges[0].site] = p.sites[p.edges[0].other];
+  p.edges[0].length = 0;
   EXPECT_EQ(short_dual_weights(p.sites, p.edges, 0.1)[0], 0);
 }
 
-TEST(CircumcentreTerm, Gradient) {
-  const Patch p = jittered_patch(8, 0.5, 6);
-  expect_gradient_matches_differences(p.sites, [&](auto x, auto g, auto d) {
-    return add_circumcentre_term(x, p.triangles, 0.3, g, d);
-  });
+TEST(TrianglePenalties, Gradient) {
+  const Patch p = jittered_patch(8, 0.7, 6);
+  const ShapeWeights both{0, 0.3, 0.7, cos_degrees(70), cos_degrees(50)};
+  for (const ShapeWeights& weights :
+       {both, ShapeWeights{0, 0.3, 0, 0, 1}, ShapeWeights{0, 0, 0.7, both.cos_largest, 0.6}})
+    expect_gradient_matches_differences(p.sites, [&](auto x, auto g, auto d) {
+      return add_triangle_penalties(x, p.triangles, weights, g, d);
+    });
 }
 
-TEST(CircumcentreTerm, IsTheSquaredDistanceOfTheCentres) {
-  // Right triangle 3-4-5: incentre (1, 1), circumcentre (1.5, 2).
+TEST(TrianglePenalties, CircumcentreTermIsTheSquaredDistanceOfTheCentres) {
+  // Right triangle 3-4-5: incentre (1, 1), circumcentre (1.5, 2), Rc = 2.5, ri = 1.
   const std::vector<Vec3> x{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
   const std::vector<Triangle> t{{0, 1, 2}};
   std::vector<Vec3> g(3);
   std::vector<double> d(3, 0);
-  EXPECT_NEAR(add_circumcentre_term(x, t, 2, g, d), 2 * 1.25, 1e-12);
-  EXPECT_GT(d[0], 0);
+  EXPECT_NEAR(add_triangle_penalties(x, t, {0, 2, 0, 0, 1}, g, d), 2 * 1.25, 1e-12);
+  EXPECT_NEAR(d[0], 2 * 2 * (1 + 2.5 / 2), 1e-12);
 }
 
-TEST(CircumcentreTerm, IsZeroForEquilateralAndFiniteForDegenerate) {
-  std::vector<Vec3> g(3);
-  std::vector<double> d(3, 0);
-  const std::vector<Triangle> t{{0, 1, 2}};
-  const std::vector<Vec3> equilateral{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  EXPECT_NEAR(add_circumcentre_term(equilateral, t, 1, g, d), 0, 1e-14);
-  for (const Vec3& v : g) EXPECT_LT(length(v), 1e-14);
-  for (const double tip : {0.0, 1e-9, 1e-300}) {
-    const std::vector<Vec3> needle{{0, 0, 0}, {1, 0, 0}, {0.3, tip, 0}};
-    EXPECT_TRUE(std::isfinite(add_circumcentre_term(needle, t, 1, g, d)));
-  }
-  const std::vector<Vec3> coincident{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
-  EXPECT_EQ(add_circumcentre_term(coincident, t, 1, g, d), 0);
-  for (const Vec3& v : g) EXPECT_TRUE(is_finite(v));
-}
-
-TEST(AngleHinge, Gradient) {
-  const Patch p = jittered_patch(8, 0.8, 7);
-  const HingeThresholds tight{std::cos(70 * degree), std::cos(50 * degree)};
-  expect_gradient_matches_differences(p.sites, [&](auto x, auto g, auto d) {
-    return add_angle_hinge(x, p.triangles, tight, 0.3, g, d);
-  });
-}
-
-TEST(AngleHinge, IsZeroExactlyOnGoodTriangles) {
-  const HingeThresholds limits;
-  EXPECT_NEAR(limits.cos_large, std::cos(86 * degree), 1e-15);
-  EXPECT_NEAR(limits.cos_small, std::cos(35 * degree), 1e-15);
+TEST(TrianglePenalties, GoodTrianglesFeelNoHinge) {
   const auto energy = [&](double a, double b) {  // angles at the first two corners, degrees
     const double ta = std::tan(a * degree);
     const double tb = std::tan(b * degree);
@@ -203,13 +178,33 @@ TEST(AngleHinge, IsZeroExactlyOnGoodTriangles) {
     const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {x, x * ta, 0}};
     std::vector<Vec3> g(3);
     std::vector<double> d(3, 0);
-    return add_angle_hinge(corners, std::vector<Triangle>{{0, 1, 2}}, limits, 1, g, d);
+    const double e =
+        add_triangle_penalties(corners, std::vector<Triangle>{{0, 1, 2}},
+                               {0, 0, 3, std::cos(86 * degree), std::cos(35 * degree)}, g, d);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(e == 0, g[k] == Vec3{});
+      EXPECT_EQ(e == 0, d[k] == 0);
+    }
+    return e;
   };
   EXPECT_EQ(energy(36, 85), 0);
   EXPECT_EQ(energy(60, 60), 0);
   EXPECT_EQ(energy(72, 72), 0);
-  EXPECT_NEAR(energy(50, 88), std::pow(std::cos(88 * degree) - limits.cos_large, 2), 1e-12);
-  EXPECT_NEAR(energy(70, 80), std::pow(std::cos(30 * degree) - limits.cos_small, 2), 1e-12);
+  EXPECT_NEAR(energy(50, 88), 3 * std::pow(std::cos(88 * degree) - std::cos(86 * degree), 2),
+              1e-12);
+  EXPECT_NEAR(energy(70, 80), 3 * std::pow(std::cos(30 * degree) - std::cos(35 * degree), 2),
+              1e-12);
+}
+
+TEST(TrianglePenalties, TrianglesWithoutAreaAreLeftOut) {
+  std::vector<Vec3> g(3);
+  std::vector<double> d(3, 0);
+  for (const Vec3& third : {Vec3{0, 0, 0}, Vec3{0.3, 0, 0}, Vec3{2, 0, 0}, Vec3{0.3, 1e-300, 0}}) {
+    const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, third};
+    EXPECT_EQ(add_triangle_penalties(x, std::vector<Triangle>{{0, 1, 2}}, {0, 1, 0, 0, 1}, g, d),
+              0);
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(is_finite(g[k]) && std::isfinite(d[k]));
 }
 
 }  // namespace
