@@ -86,6 +86,7 @@ CvtOptions cvt_options(const RemeshOptions& options, Index n) {
   CvtOptions result{.sites = n, .seed = options.seed};
   if (options.method == Method::Default) return result;
   result.iterations = kPaperIterations;
+  result.tolerance = 0;
   result.coarse_levels = 0;
   return result;
 }
