@@ -9,8 +9,10 @@
 #include "energy/triangle_penalties.h"
 #include "numeric/vec3.h"
 #include "optimize/lbfgs.h"
+#include "remesh/extraction.h"
 #include "remesh/restricted_diagram.h"
 #include "remesh/surface_projection.h"
+#include "remesh/valence_optimization.h"
 #include "remesh/valence_resampling.h"
 
 namespace nonobtuse::pipeline {
@@ -242,15 +244,27 @@ PlacedSites minimize(PlacedSites start, int iterations, const SurfaceProjection&
   return best;
 }
 
+// The vertices of the mesh of the sites once its valences are mended. Where the mended mesh is not
+// the Delaunay triangulation of its vertices some of this is lost again; seldom, it turns out.
+std::vector<Vec3> mended_sites(const mesh::Surface& surface, std::vector<Vec3> sites,
+                               const parallel::Workers& workers, parallel::Monitor& monitor) {
+  Extraction extraction = extract(surface, std::move(sites), workers, monitor);
+  optimize_valence(surface, extraction.mesh, workers, monitor);
+  return extraction.mesh.to_mesh().vertices;
+}
+
 }  // namespace
 
 std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<Vec3> sites,
                                      const PaperOptions& options, const parallel::Workers& workers,
                                      parallel::Monitor& monitor) {
   const SurfaceProjection projection(surface, workers);
+  if (options.valence == ValenceStep::Edits)
+    sites = mended_sites(surface, std::move(sites), workers, monitor);
   PlacedSites placed = projection.place(sites);
-  resample_bad_valences(surface, projection, placed, options.valence_rounds, options.seed, workers,
-                        monitor);
+  if (options.valence == ValenceStep::Resampling)
+    resample_bad_valences(surface, projection, placed, options.resampling_rounds, options.seed,
+                          workers, monitor);
   PenalizedEnergy energy(surface, options, workers);
   return minimize(std::move(placed), options.iterations, projection, energy, workers, monitor)
       .sites;
