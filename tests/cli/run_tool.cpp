@@ -16,6 +16,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// The tool is several times slower under the sanitizers.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kPatience = 5;
+#else
+constexpr double kPatience = 1;
+#endif
+
 std::filesystem::path scratch(const std::string& name) {
   return std::filesystem::temp_directory_path() /
          ("nonobtuse-" + std::to_string(getpid()) + "-" + name);
@@ -43,7 +50,7 @@ Outcome run_tool(const std::vector<std::string>& arguments, double seconds, cons
   const std::string err = scratch("err").string();
   Outcome outcome;
   const pid_t pid = start(arguments, out, err);
-  const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
+  const auto deadline = Clock::now() + std::chrono::duration<double>(kPatience * seconds);
   int status = 0;
   while (waitpid(pid, &status, WNOHANG) == 0) {
     if (watch) watch(pid, read_file(err));
