@@ -244,13 +244,19 @@ PlacedSites minimize(PlacedSites start, int iterations, const SurfaceProjection&
   return best;
 }
 
-// The vertices of the mesh of the sites once its valences are mended. Where the mended mesh is not
-// the Delaunay triangulation of its vertices some of this is lost again; seldom, it turns out.
-std::vector<Vec3> mended_sites(const mesh::Surface& surface, std::vector<Vec3> sites,
-                               const parallel::Workers& workers, parallel::Monitor& monitor) {
-  Extraction extraction = extract(surface, std::move(sites), workers, monitor);
+// The vertices of the sites' mesh once its valences are mended, on the surface; the sites as they
+// were where that would cost the topology, since the mended mesh need not be the restricted
+// Delaunay triangulation of its vertices.
+PlacedSites mend_valences(const mesh::Surface& surface, const SurfaceProjection& projection,
+                          PlacedSites placed, const parallel::Workers& workers,
+                          parallel::Monitor& monitor) {
+  Extraction extraction = extract(surface, placed.sites, workers, monitor);
   optimize_valence(surface, extraction.mesh, workers, monitor);
-  return extraction.mesh.to_mesh().vertices;
+  PlacedSites mended = projection.place(extraction.mesh.to_mesh().vertices);
+  const auto defects = [&](const PlacedSites& x) {
+    return restricted_diagram(surface, x.sites, workers).defects.size();
+  };
+  return defects(mended) <= defects(placed) ? std::move(mended) : std::move(placed);
 }
 
 }  // namespace
@@ -259,9 +265,9 @@ std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<V
                                      const PaperOptions& options, const parallel::Workers& workers,
                                      parallel::Monitor& monitor) {
   const SurfaceProjection projection(surface, workers);
-  if (options.valence == ValenceStep::Edits)
-    sites = mended_sites(surface, std::move(sites), workers, monitor);
   PlacedSites placed = projection.place(sites);
+  if (options.valence == ValenceStep::Edits)
+    placed = mend_valences(surface, projection, std::move(placed), workers, monitor);
   if (options.valence == ValenceStep::Resampling)
     resample_bad_valences(surface, projection, placed, options.resampling_rounds, options.seed,
                           workers, monitor);
