@@ -33,6 +33,7 @@ class CellCounter {
       : surface_(surface),
         diagram_(diagram),
         owner_(owner),
+        plain_(owner.data() == diagram.site.data()),
         seen_(surface.vertices.size(), 0),
         counts_{std::vector<int>(site_count, 0), std::vector<int>(site_count, 0)} {}
 
@@ -57,7 +58,7 @@ class CellCounter {
   }
   // Whether the piece across a bisector belongs to the same cell.
   [[nodiscard]] bool same(Index f, Index p, Side s) const {
-    return owner_[diagram_.find(f, s)] == owner_[p];
+    return !plain_ && owner_[diagram_.find(f, s)] == owner_[p];
   }
 
   [[nodiscard]] int side(Index f, Index p, Side s) const {
@@ -82,6 +83,7 @@ class CellCounter {
   const mesh::Surface& surface_;
   const RestrictedVoronoi& diagram_;
   std::span<const Index> owner_;
+  bool plain_;  // owners are the sites themselves: two pieces of one facet never share theirs
   std::vector<char> seen_;
   CellCounts counts_;
 };
@@ -137,11 +139,13 @@ bool is_proper_link(std::span<std::pair<Index, Index>> arcs, bool boundary) {
   }
   const bool closed = arcs.back().second == arcs.front().first;
   if (closed == boundary) return false;
-  std::vector<Index> ends;
-  for (const auto& arc : arcs) ends.push_back(arc.first);
-  if (boundary) ends.push_back(arcs.back().second);
-  std::sort(ends.begin(), ends.end());
-  return std::adjacent_find(ends.begin(), ends.end()) == ends.end();
+  // Chained, so the first ends are all the vertices of the link but the last of a path.
+  for (std::size_t m = 0; m < arcs.size(); ++m) {
+    if (boundary && arcs[m].first == arcs.back().second) return false;
+    for (std::size_t l = 0; l < m; ++l)
+      if (arcs[l].first == arcs[m].first) return false;
+  }
+  return true;
 }
 
 }  // namespace

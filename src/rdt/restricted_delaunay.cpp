@@ -9,6 +9,7 @@ namespace nonobtuse::rdt {
 std::vector<Triangle> restricted_delaunay(const rvd::RestrictedVoronoi& diagram,
                                           std::span<const Index> owner) {
   std::vector<Triangle> triangles;
+  const bool plain = owner.data() == diagram.site.data();
   const Index facets = static_cast<Index>(diagram.facet_start.size()) - 1;
   for (Index f = 0; f < facets; ++f) {
     for (Index p = diagram.facet_start[f]; p < diagram.facet_start[f + 1]; ++p) {
@@ -18,7 +19,8 @@ std::vector<Triangle> restricted_delaunay(const rvd::RestrictedVoronoi& diagram,
       for (const rvd::Side after : sides) {
         if (before > i && after > i) {  // each corner once, from its lowest site
           // Counter-clockwise around the corner lie the cells of i, before, after.
-          Triangle t{owner[p], owner[diagram.find(f, before)], owner[diagram.find(f, after)]};
+          Triangle t{i, before, after};
+          if (!plain) t = {owner[p], owner[diagram.find(f, before)], owner[diagram.find(f, after)]};
           std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
           if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
         }

@@ -37,13 +37,14 @@ CellComponents cell_components(const mesh::Surface& surface, const RestrictedVor
                                std::span<const Index> owner) {
   const Index facets = static_cast<Index>(surface.triangles.size());
   DisjointSets sets(diagram.piece_count());
+  const bool plain = owner.data() == diagram.site.data();
   for (Index f = 0; f < facets; ++f) {
     for (Index p = diagram.facet_start[f]; p < diagram.facet_start[f + 1]; ++p) {
       for (const Side s : diagram.sides_of(p)) {
         if (is_edge(s)) {
           if (surface.adjacent[f][edge_of(s)] > f)
             sets.join(p, diagram.across(surface, f, p, edge_of(s)));
-        } else if (s > diagram.site[p]) {
+        } else if (!plain && s > diagram.site[p]) {
           const Index q = diagram.find(f, s);
           if (owner[q] == owner[p]) sets.join(p, q);
         }

@@ -36,8 +36,7 @@ class FacetClipper {
     corners_.clear();
     for (int m = 0; m < 3; ++m)
       corners_.push_back(predicates_.corner(i, sides_[(m + 2) % 3], sides_[m]));
-    order_around(i);
-    for (const int j : order_) {
+    for (const int j : order_around(i)) {
       if (j != i) cut(i, j);
       if (sides_.empty()) break;
     }
@@ -66,9 +65,9 @@ class FacetClipper {
       if (!farther(i, nearest)) contenders_.push_back(i);
   }
 
-  void order_around(int i) {
+  const std::vector<int>& order_around(int i) {
+    if (static_cast<int>(contenders_.size()) < kSortedFrom) return contenders_;
     order_ = contenders_;
-    if (static_cast<int>(order_.size()) < kSortedFrom) return;
     const auto key = [&](int j) {
       const auto& di = predicates_.distances(i);
       const auto& dj = predicates_.distances(j);
@@ -80,10 +79,21 @@ class FacetClipper {
       const double kb = key(b);
       return ka != kb ? ka < kb : a < b;
     });
+    return order_;
   }
 
   // Keeps the part of the piece nearer to i than to j.
   void cut(int i, int j) {
+    // The whole facet on one side, beyond rounding: no need to look at the corners.
+    const auto& di = predicates_.distances(i);
+    const auto& dj = predicates_.distances(j);
+    const double margin = predicates_.difference_error();
+    const auto [least, most] = std::minmax({di[0] - dj[0], di[1] - dj[1], di[2] - dj[2]});
+    if (most < -margin) return;
+    if (least > margin) {
+      sides_.clear();
+      return;
+    }
     const std::size_t count = sides_.size();
     outside_.resize(count);
     bool any = false;
@@ -141,6 +151,13 @@ void clip_facet(FacetClipper& clipper, const mesh::Surface& surface, std::span<c
     for (const Side s : sides) part.sides.push_back(is_edge(s) ? s : list[s]);
   };
   clipper.reset(surface, sites, candidates, facet);
+  if (clipper.contenders().size() == 1) {
+    part.site.push_back(list[clipper.contenders().front()]);
+    part.sides_of_piece.push_back(3);
+    part.sides.insert(part.sides.end(), {edge_side(2), edge_side(0), edge_side(1)});
+    part.pieces_of_facet.push_back(1);
+    return;
+  }
   for (const int i : clipper.contenders()) {
     const std::vector<Side>& sides = clipper.clip(i);
     if (!sides.empty()) add(i, sides);
@@ -173,6 +190,10 @@ RestrictedVoronoi restricted_voronoi(const mesh::Surface& surface, std::span<con
       facets, kFacetsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         FacetClipper clipper;
         Part& part = parts[chunk];
+        part.pieces_of_facet.reserve(end - begin);
+        part.site.reserve(4 * (end - begin));
+        part.sides_of_piece.reserve(4 * (end - begin));
+        part.sides.reserve(16 * (end - begin));
         for (std::size_t f = begin; f < end; ++f)
           clip_facet(clipper, surface, sites, candidates, static_cast<Index>(f), part);
       });

@@ -110,6 +110,56 @@ TEST(RestrictedDelaunay, TiesGiveManifoldsInAnyOrder) {
   }
 }
 
+// Triangles of the dual by plain floating-point clipping (Sutherland, Hodgman 1974) of every facet
+// by every site: what the exact engine must give where no tie is near.
+std::set<Triangle> floating_dual(const mesh::Surface& s, const std::vector<Vec3>& sites) {
+  struct Point {
+    Vec3 at;
+    Index side;  // what lies across the side that begins here; < 0 for a facet's edge
+  };
+  std::set<Triangle> result;
+  for (const Triangle& t : s.triangles) {
+    for (Index i = 0; i < static_cast<Index>(sites.size()); ++i) {
+      std::vector<Point> polygon{
+          {s.vertices[t[0]], -1}, {s.vertices[t[1]], -2}, {s.vertices[t[2]], -3}};
+      for (Index j = 0; j < static_cast<Index>(sites.size()) && !polygon.empty(); ++j) {
+        if (j == i) continue;
+        const auto value = [&](const Vec3& p) {
+          return squared_distance(p, sites[i]) - squared_distance(p, sites[j]);
+        };
+        std::vector<Point> kept;
+        for (std::size_t m = 0; m < polygon.size(); ++m) {
+          const Point& a = polygon[m];
+          const Point& b = polygon[(m + 1) % polygon.size()];
+          const double va = value(a.at);
+          const double vb = value(b.at);
+          if (va <= 0) kept.push_back(a);
+          if ((va <= 0) != (vb <= 0))
+            kept.push_back({a.at + va / (va - vb) * (b.at - a.at), va <= 0 ? j : a.side});
+        }
+        polygon = std::move(kept);
+      }
+      for (std::size_t m = 0; m < polygon.size(); ++m) {
+        const Index after = polygon[m].side;
+        const Index before = polygon[(m + polygon.size() - 1) % polygon.size()].side;
+        if (before > i && after > i) result.insert({i, before, after});
+      }
+    }
+  }
+  return result;
+}
+
+TEST(RestrictedDelaunay, EqualsFloatingPointWhereNoTieIsNear) {
+  for (const TriangleMesh& m : {shapes::sphere(3), shapes::torus(20, 10), shapes::square(7)}) {
+    const mesh::Surface s = shapes::scaled_surface(m, 70);
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const std::vector<Vec3> sites = shapes::random_sites(s, 70, seed);
+      const std::vector<Triangle> exact = dual_of(s, sites).triangles;
+      EXPECT_EQ(std::set<Triangle>(exact.begin(), exact.end()), floating_dual(s, sites));
+    }
+  }
+}
+
 TEST(ClosedBall, NamesWhatIsWrong) {
   const auto kinds = [](const mesh::Surface& s, const std::vector<Vec3>& sites) {
     std::set<rdt::CellDefect> result;
