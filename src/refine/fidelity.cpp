@@ -272,12 +272,13 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
 }
 
 TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const {
-  TangentPlane result{1, foot, surface().normals[facet], facet};
+  TangentPlane result{1, 0, foot, surface().normals[facet], facet};
   // Where M is sharp the nearest point may lie on an edge or vertex with its facets turned far
   // away.
   const Vec3 offset = p - foot;
   const double d = length(offset);
-  if (d > 1e-6 && std::abs(dot(offset, result.normal)) < 0.9 * d) result.normal = offset / d;
+  const double along = dot(offset, result.normal);
+  if (d > 1e-6 && std::abs(along) < 0.9 * d) result.normal = (along < 0 ? -1 / d : 1 / d) * offset;
   return result;
 }
 
@@ -308,11 +309,9 @@ void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool searc
     normal += a;
     weight += length(a) / 24;
   });
-  const double emphasis = plane.emphasis;
-  vertex_weights[v] = emphasis * weight;
-  plane = search || plane.facet < 0 ? search_foot(mesh.positions[v], normal)
-                                    : walk_foot(mesh.positions[v], plane.facet);
-  plane.emphasis = emphasis;
+  vertex_weights[v] = plane.emphasis * weight;
+  plane.move_to(search || plane.facet < 0 ? search_foot(mesh.positions[v], normal)
+                                          : walk_foot(mesh.positions[v], plane.facet));
 }
 
 void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool search) {
@@ -320,13 +319,11 @@ void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool sea
   const Vec3 normal = area_vector(p);
   const Vec3 centroid = (p[0] + p[1] + p[2]) / 3;
   TangentPlane& plane = centroid_planes[t];
-  const double emphasis = plane.emphasis;
-  centroid_weights[t] = 0.375 * emphasis * length(normal);
-  const Index facet = plane.facet;
-  if (facet >= 0 && !search) plane = walk_foot(centroid, facet);
-  if (facet < 0 || search || dot(surface().normals[plane.facet], normal) < 0)
-    plane = search_foot(centroid, normal);
-  plane.emphasis = emphasis;
+  centroid_weights[t] = 0.375 * plane.emphasis * length(normal);
+  const bool known = plane.facet >= 0 && !search;
+  if (known) plane.move_to(walk_foot(centroid, plane.facet));
+  if (!known || dot(surface().normals[plane.facet], normal) < 0)
+    plane.move_to(search_foot(centroid, normal));
 }
 
 void Fidelity::update_planes(const mesh::EditableMesh& mesh, const parallel::Workers& workers,
@@ -349,7 +346,7 @@ double Fidelity::triangle(Index t, const std::array<Vec3, 3>& p,
                           std::array<Vec3, 3>* gradient) const {
   const TangentPlane& plane = centroid_planes[t];
   const double weight = weights.to_surface * centroid_weights[t];
-  const double height = dot((p[0] + p[1] + p[2]) / 3 - plane.point, plane.normal);
+  const double height = dot((p[0] + p[1] + p[2]) / 3 - plane.point, plane.normal) - plane.offset;
   double energy = weight * height * height;
   if (gradient) {
     const Vec3 g = (2.0 / 3) * weight * height * plane.normal;
@@ -372,7 +369,7 @@ double Fidelity::triangle(Index t, const std::array<Vec3, 3>& p,
 double Fidelity::vertex(Index v, const Vec3& p, Vec3* gradient) const {
   const TangentPlane& plane = vertex_planes[v];
   const double weight = weights.to_surface * vertex_weights[v];
-  const double height = dot(p - plane.point, plane.normal);
+  const double height = dot(p - plane.point, plane.normal) - plane.offset;
   if (gradient) *gradient += 2 * weight * height * plane.normal;
   return weight * height * height;
 }

@@ -30,9 +30,16 @@ struct Sample {
 /// Tangent plane of M under a point of T.
 struct TangentPlane {
   double emphasis = 1;  ///< factor of the weight, see emphasize_far_points
+  double offset = 0;    ///< distance at which the point should lie, outwards
   Vec3 point;           ///< foot of the point
-  Vec3 normal;          ///< unit: the facet's, or the offset's direction where M is sharp
+  Vec3 normal;          ///< unit, outwards: the facet's, or the offset's direction at sharp places
   Index facet = -1;
+
+  void push_out(double by, double factor) { offset += by, emphasis *= factor; }
+  /// Takes over foot, normal and facet, but not emphasis and offset.
+  void move_to(const TangentPlane& other) {
+    point = other.point, normal = other.normal, facet = other.facet;
+  }
 };
 
 struct FidelityWeights {

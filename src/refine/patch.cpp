@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <tuple>
 
-#include "refine/flips.h"
+#include "refine/neighborhood.h"
 
 namespace nonobtuse::refine {
 namespace {
-
-void sort_unique(std::vector<Index>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
 
 // New triangles of a flip must look the way the old ones do, on the whole.
 bool flip_keeps_sides(const mesh::EditableMesh& mesh, mesh::Edge e) {
@@ -37,18 +32,6 @@ bool collapse_keeps_sides(const mesh::EditableMesh& mesh, Index a, Index b) {
     if (!(dot(before, after) > 0.2 * length(before) * length(after))) keeps = false;
   });
   return keeps;
-}
-
-void add_rings(const mesh::EditableMesh& mesh, std::vector<Index>& vertices, int rings) {
-  sort_unique(vertices);
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t count = vertices.size();
-    for (std::size_t i = 0; i < count; ++i)
-      for_ring(mesh, vertices[i], [&](Index t, int) {
-        for (Index v : mesh.triangle(t)) vertices.push_back(v);
-      });
-    sort_unique(vertices);
-  }
 }
 
 // Separate fans that the triangles of a sorted list form around v.
@@ -156,7 +139,7 @@ bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t
     const Index facet = fidelity.vertex_planes[v].facet;
     against += facet >= 0 && dot(fidelity.surface().normals[facet], normal) < 0;
   }
-  if (against >= 2) return true;
+  if (against == 3) return true;
   for (int k = 0; k < 3; ++k) {
     const Index u = mesh.adjacent(t, k);
     if (u >= 0 && dot(normalized(area_vector(corners(mesh, u))), normal) < -0.5) return true;

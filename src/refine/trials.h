@@ -19,10 +19,6 @@ struct TrialOptions {
 
 PatchScore score(const Patch& patch, const TrialOptions& options);
 
-/// Does the edits on a copy and relaxes it; nothing if an edit is not possible.
-std::optional<Patch> try_edits(const Patch& patch, const std::vector<Edit>& edits,
-                               const TrialOptions& options);
-
 /// The best of several sequences by score, with its score; nothing if none is possible. Parallel
 /// over the sequences.
 std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,

@@ -10,7 +10,8 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr int kPasses = 6;
-constexpr int kPlaces = 24;  // tried to balance the count
+constexpr double kFlat = 0.98;  // length of a ring's summed normal over its area
+constexpr int kPlaces = 24;     // tried to balance the count
 
 struct Effort {
   int rings, flips;
@@ -75,7 +76,13 @@ std::vector<Index> places(const mesh::EditableMesh& mesh, int net) {
     const int valence = mesh.valence(v);
     if (net < 0 ? valence > 5 : valence < 6) continue;
     double area = 0;
-    for_ring(mesh, v, [&](Index t, int) { area += length(area_vector(corners(mesh, t))); });
+    Vec3 sum;
+    for_ring(mesh, v, [&](Index t, int) {
+      const Vec3 a = area_vector(corners(mesh, t));
+      area += length(a);
+      sum += a;
+    });
+    if (length(sum) < kFlat * area) continue;  // a tip or ridge: every vertex counts there
     ranked.emplace_back(net < 0 ? area : -area, v);
   }
   const std::size_t count = std::min<std::size_t>(ranked.size(), kPlaces);

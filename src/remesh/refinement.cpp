@@ -9,9 +9,11 @@
 
 #include "refine/angle_goal.h"
 #include "refine/angle_sweeps.h"
+#include "refine/distance_polish.h"
 #include "refine/fidelity.h"
 #include "refine/flips.h"
 #include "refine/global_descent.h"
+#include "refine/sheet_separation.h"
 
 namespace nonobtuse::pipeline {
 namespace {
@@ -21,7 +23,9 @@ constexpr int kStepsBetweenFlips = 5;
 constexpr double kFidelity = 20;  // weight at the start
 constexpr double kLeastFidelity = 6;
 constexpr double kMostFidelity = 40;
-constexpr double kMeanQuality = 0.9465;  // Q_avg aimed at by the weight
+// Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
+constexpr double kMeanQuality = 0.9465;
+constexpr double kMeanQualityLarge = 0.9425;
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
@@ -57,19 +61,34 @@ class Refinement {
       adapt_weights();
       descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }
-    const auto keep_going = [&](double f) { return tick(0.75 + 0.25 * f); };
-    return refine::sweep_angles(mesh_, fidelity_, {lo, hi}, options_.on_surface, workers_,
-                                keep_going);
+    const refine::AngleGoal goal{lo, hi};
+    const Index outside =
+        refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,
+                             [&](double f) { return tick(0.75 + 0.15 * f); });
+    refine::TrialOptions local;
+    local.goal = goal;
+    local.shape = energy::hinged(100, lo + 1, hi - 1);
+    local.on_surface = options_.on_surface;
+    refine::polish_distance(mesh_, fidelity_, local, workers_,
+                            [&](double f) { return tick(0.9 + 0.05 * f); });
+    refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                            [&](double f) { return tick(0.95 + 0.05 * f); });
+    return outside == 0 ? 0 : outside_goal(goal);
   }
 
  private:
   bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
 
+  [[nodiscard]] Index outside_goal(const refine::AngleGoal& goal) const {
+    return static_cast<Index>(refine::triangles_outside(mesh_, refine::AngleTest(goal)).size());
+  }
+
   // Fidelity is bought with shape, not with the angle bounds: on a smooth surface there is shape to
   // spare, on a rough one there is not.
   void adapt_weights() {
-    const double excess = refine::mean_quality(mesh_) - kMeanQuality;
-    const double weight = std::clamp(fidelity_.weights.to_mesh * std::exp(100 * excess),
+    const double aim = mesh_.vertex_count() > 10000 ? kMeanQualityLarge : kMeanQuality;
+    const double excess = refine::mean_quality(mesh_) - aim;
+    const double weight = std::clamp(fidelity_.weights.to_mesh * std::exp(150 * excess),
                                      kLeastFidelity, kMostFidelity);
     fidelity_.weights.to_mesh = weight;
     if (!options_.on_surface) fidelity_.weights.to_surface = weight;
@@ -109,7 +128,9 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
-  return Refinement(surface, mesh, options, workers, monitor).run();
+  const Index outside = Refinement(surface, mesh, options, workers, monitor).run();
+  mesh.compact();
+  return outside;
 }
 
 }  // namespace nonobtuse::pipeline
