@@ -55,8 +55,9 @@ struct QualityReport {
   Topology topology;
   Index self_intersections = 0;  ///< pairs of triangles that cross, touch or overlap beyond the
                                  ///< vertices and edges they share; exact
-  Index flipped = 0;  ///< triangles whose normal is more than 90 degrees off the reference's at the
-                      ///< closest point of their centroid; 0 without a reference
+  Index flipped = 0;  ///< triangles whose normal is more than 90 degrees off the reference's (its
+                      ///< facet's and its interpolated vertex normals') at the point nearest to
+                      ///< their centroid; 0 without a reference
   std::optional<SurfaceDistance> distance;  ///< only with a reference
 };
 

@@ -137,14 +137,22 @@ Index count_flipped(const TriangleMesh& mesh, const TriangleMesh& reference,
     const auto& [a, b, c] = m.triangles[t];
     return area_vector(m.vertices[a], m.vertices[b], m.vertices[c]);
   };
+  std::vector<Vec3> vertex_normals(reference.vertices.size());
+  for (std::size_t t = 0; t < reference.triangles.size(); ++t)
+    for (const Index v : reference.triangles[t]) vertex_normals[v] += normal(reference, t);
   return workers.ordered_sum(
       mesh.triangles.size(), kChunk, Index{0}, [&](std::size_t begin, std::size_t end) {
         Index count = 0;
         for (std::size_t t = begin; t < end; ++t) {
           const auto& [a, b, c] = mesh.triangles[t];
           const Vec3 centroid = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
-          const Index nearest = reference_bvh.closest(centroid).triangle;
-          if (dot(normal(mesh, t), normal(reference, nearest)) < 0) ++count;
+          const auto hit = reference_bvh.closest(centroid);
+          const auto& [i, j, k] = reference.triangles[hit.triangle];
+          const Vec3 around = hit.barycentric.x * vertex_normals[i] +
+                              hit.barycentric.y * vertex_normals[j] +
+                              hit.barycentric.z * vertex_normals[k];
+          const Vec3 own = normal(mesh, t);
+          if (dot(own, normal(reference, hit.triangle)) < 0 && dot(own, around) < 0) ++count;
         }
         return count;
       });

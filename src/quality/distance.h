@@ -29,7 +29,8 @@ OneSidedDistance one_sided_distance(const TriangleMesh& mesh, std::span<const In
 std::size_t default_samples(const TriangleMesh& a, const TriangleMesh& b);
 
 /// Number of triangles whose normal is more than 90 degrees off the reference's at the point
-/// nearest to their centroid.
+/// nearest to their centroid: both its facet's and the interpolated vertex normals', so that a
+/// facet of the reference that is itself turned over between its neighbours accuses nobody.
 Index count_flipped(const TriangleMesh& mesh, const TriangleMesh& reference,
                     const spatial::TriangleBvh& reference_bvh, const parallel::Workers& workers);
 

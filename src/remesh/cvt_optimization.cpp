@@ -53,7 +53,8 @@ void divide_by_mass(const rvd::CellIntegrals& cells, std::span<const Vec3> in, s
 }  // namespace
 
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
-                    const parallel::Workers& workers, const std::function<bool(int)>& callback) {
+                    double tolerance, const parallel::Workers& workers,
+                    const std::function<bool(int)>& callback) {
   optimize::LbfgsHistory history(kPairs);
   Iterate here;
   here.sites = sites;
@@ -61,8 +62,13 @@ double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int
   Iterate trial;
   std::vector<Vec3> direction(sites.size());
   double step = 1;
+  double energy_at_stride = here.cells.energy;
   for (int k = 1; k < evaluations; ++k) {
     if (callback && !callback(k)) break;
+    if (k % kStride == 0) {
+      if (energy_at_stride - here.cells.energy < tolerance * here.cells.energy) break;
+      energy_at_stride = here.cells.energy;
+    }
     if (step == 1)
       history.direction(
           here.gradient, direction,
@@ -199,7 +205,8 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
     rvd::CellEvaluator evaluator(surface, static_cast<Index>(sites.points.size()), workers);
     const int evaluations = level == 0 ? options.iterations : options.coarse_iterations;
     if (!monitor.cancelled())
-      minimize_cvt(evaluator, sites.points, evaluations, workers,
+      minimize_cvt(evaluator, sites.points, evaluations,
+                   level == 0 ? options.tolerance : options.coarse_tolerance, workers,
                    [&](int k) { return monitor.tick((done + k) / std::max(total, 1.0)); });
     done += evaluations;
     if (level == 0) break;

@@ -9,8 +9,10 @@
 #include "energy/triangle_penalties.h"
 #include "numeric/vec3.h"
 #include "optimize/lbfgs.h"
+#include "remesh/extraction.h"
 #include "remesh/restricted_diagram.h"
 #include "remesh/surface_projection.h"
+#include "remesh/valence_optimization.h"
 #include "remesh/valence_resampling.h"
 
 namespace nonobtuse::pipeline {
@@ -242,6 +244,21 @@ PlacedSites minimize(PlacedSites start, int iterations, const SurfaceProjection&
   return best;
 }
 
+// The vertices of the sites' mesh once its valences are mended, on the surface; the sites as they
+// were where that would cost the topology, since the mended mesh need not be the restricted
+// Delaunay triangulation of its vertices.
+PlacedSites mend_valences(const mesh::Surface& surface, const SurfaceProjection& projection,
+                          PlacedSites placed, const parallel::Workers& workers,
+                          parallel::Monitor& monitor) {
+  Extraction extraction = extract(surface, placed.sites, workers, monitor);
+  optimize_valence(surface, extraction.mesh, workers, monitor);
+  PlacedSites mended = projection.place(extraction.mesh.to_mesh().vertices);
+  const auto defects = [&](const PlacedSites& x) {
+    return restricted_diagram(surface, x.sites, workers).defects.size();
+  };
+  return defects(mended) <= defects(placed) ? std::move(mended) : std::move(placed);
+}
+
 }  // namespace
 
 std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<Vec3> sites,
@@ -249,8 +266,11 @@ std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<V
                                      parallel::Monitor& monitor) {
   const SurfaceProjection projection(surface, workers);
   PlacedSites placed = projection.place(sites);
-  resample_bad_valences(surface, projection, placed, options.valence_rounds, options.seed, workers,
-                        monitor);
+  if (options.valence == ValenceStep::Edits)
+    placed = mend_valences(surface, projection, std::move(placed), workers, monitor);
+  if (options.valence == ValenceStep::Resampling)
+    resample_bad_valences(surface, projection, placed, options.resampling_rounds, options.seed,
+                          workers, monitor);
   PenalizedEnergy energy(surface, options, workers);
   return minimize(std::move(placed), options.iterations, projection, energy, workers, monitor)
       .sites;

@@ -13,6 +13,13 @@
 
 namespace nonobtuse::pipeline {
 
+/// How valences below 5 and above 7 are mended before the penalties.
+enum class ValenceStep {
+  None,
+  Resampling,  ///< random places and local Lloyd steps, as the paper has it: leaves about half
+  Edits,       ///< edits of the mesh (valence_optimization.h), whose vertices are the new sites
+};
+
 /// Terms added to the CVT energy of Eq. 1 (uniform density, without factor 1/2), each scaled so
 /// that its weight means the same for any model and number of sites. All may be combined.
 struct PaperOptions {
@@ -29,9 +36,10 @@ struct PaperOptions {
   double hinge = 0;
   double hinge_small = 35;  ///< degrees: smaller angles are penalised by the hinge
   double hinge_large = 86;  ///< degrees: larger ones too
-  int valence_rounds = 6;   ///< of valence optimisation; 0 leaves it out
-  int iterations = 40;      ///< of L-BFGS
-  std::uint64_t seed = 0;   ///< of the valence optimisation's random positions
+  ValenceStep valence = ValenceStep::Edits;
+  int resampling_rounds = 20;  ///< with ValenceStep::Resampling
+  std::uint64_t seed = 0;      ///< with ValenceStep::Resampling
+  int iterations = 40;         ///< of L-BFGS, at most
 };
 
 /// Moves the sites (#X by 3) of a CVT until no triangle of their restricted Delaunay triangulation

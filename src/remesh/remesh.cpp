@@ -30,7 +30,7 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const Reme
                                const parallel::Workers& workers, pipeline::StageClock& clock) {
   parallel::Monitor& monitor = clock.monitor();
   std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
-    return pipeline::optimize_cvt(surface, {.sites = n, .seed = options.seed}, workers, monitor);
+    return pipeline::optimize_cvt(surface, pipeline::cvt_options(options, n), workers, monitor);
   });
   if (options.method == Method::CvtNob)
     sites = clock.run("obtuse removal", 0.1, 0.4, [&] {

@@ -15,6 +15,8 @@ namespace nonobtuse::pipeline {
 
 namespace {
 
+constexpr int kPaperIterations = 40;
+
 double bounding_box_diagonal(const TriangleMesh& mesh) {
   Vec3 low = mesh.vertices.front();
   Vec3 high = low;
@@ -78,6 +80,15 @@ Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options) {
     throw InvalidInput(
         fmt::format("an edge length of {} asks for {:.3g} vertices; the most is 1e9.", h, n));
   return std::max(static_cast<Index>(n), Index{4});
+}
+
+CvtOptions cvt_options(const RemeshOptions& options, Index n) {
+  CvtOptions result{.sites = n, .seed = options.seed};
+  if (options.method == Method::Default) return result;
+  result.iterations = kPaperIterations;
+  result.tolerance = 0;
+  result.coarse_levels = 0;
+  return result;
 }
 
 RefinementOptions refinement_options(const RemeshOptions& options) {

@@ -3,6 +3,7 @@
 
 #include "nonobtuse/mesh.h"
 #include "nonobtuse/options.h"
+#include "remesh/cvt_optimization.h"
 #include "remesh/refinement.h"
 
 namespace nonobtuse::pipeline {
@@ -18,6 +19,10 @@ void check_input(const TriangleMesh& input);
 /// The number of output vertices: given, or from an edge length h as area / (sqrt(3)/2 h^2), the
 /// density of a regular triangulation, or the input's own. At least 4.
 Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options);
+
+/// The paper's methods start from samples at full size and take 40 iterations (30 to 50 there); the
+/// default method goes coarse to fine.
+CvtOptions cvt_options(const RemeshOptions& options, Index n);
 
 RefinementOptions refinement_options(const RemeshOptions& options);
 

@@ -80,7 +80,6 @@ TEST_P(PaperMethod, RemovesObtuseTrianglesAndKeepsTheSurface) {
 TEST_P(PaperMethod, GivesTheSameBytesForAnyNumberOfThreads) {
   PaperOptions options = GetParam();
   options.iterations = 6;
-  options.valence_rounds = 2;
   const std::vector<Vec3> start = rough_cvt(torus());
   const std::vector<Vec3> one = removal(torus(), start, options, 1);
   EXPECT_EQ(removal(torus(), start, options, 2), one);
@@ -89,11 +88,14 @@ TEST_P(PaperMethod, GivesTheSameBytesForAnyNumberOfThreads) {
 
 INSTANTIATE_TEST_SUITE_P(
     Penalties, PaperMethod,
-    testing::Values(PaperOptions{}, PaperOptions{.tangential = false},
-                    PaperOptions{.short_dual = 0, .circumcentre = 1, .iterations = 15},
-                    PaperOptions{.short_dual = 0, .hinge = 1, .iterations = 15},
-                    PaperOptions{
-                        .short_dual = 0, .circumcentre = 1, .hinge = 1, .iterations = 15}));
+    testing::Values(
+        PaperOptions{},
+        PaperOptions{
+            .tangential = false, .valence = ValenceStep::Resampling, .resampling_rounds = 4},
+        PaperOptions{
+            .short_dual = 0, .circumcentre = 1, .valence = ValenceStep::None, .iterations = 15},
+        PaperOptions{.short_dual = 0, .hinge = 1, .iterations = 15},
+        PaperOptions{.short_dual = 0, .circumcentre = 1, .hinge = 1, .iterations = 15}));
 
 TEST(PaperMethodSteps, CancellationReturnsUsableSites) {
   const std::vector<Vec3> start = rough_cvt(torus());
