@@ -22,7 +22,7 @@ namespace {
 constexpr Index kSamplesPerVertex = 8;
 constexpr int kStepsBetweenFlips = 5;
 constexpr double kFidelity = 20;  // weight at the start
-constexpr double kLeastFidelity = 8;
+constexpr double kLeastFidelity = 6;
 constexpr double kMostFidelity = 40;
 // Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
 constexpr double kMeanQuality = 0.9465;
