@@ -61,7 +61,7 @@ std::vector<FarPoint> far_points(const mesh::EditableMesh& mesh, Fidelity& fidel
         points.push_back({d, t, &sample.weight});
     }
     const std::array<Vec3, 3> p = corners(mesh, t);
-    add_plane(fidelity.centroid_planes[t], (p[0] + p[1] + p[2]) / 3, t);
+    for (int k = 0; k < 3; ++k) add_plane(fidelity.edge_planes[t][k], midpoint(p, k), t);
   }
   for (Index v = 0; v < mesh.vertex_capacity(); ++v)
     if (mesh.alive_vertex(v) && !mesh.on_boundary(v))

@@ -177,7 +177,7 @@ void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, 
   for (Index t = 0; t < mesh.triangle_capacity(); ++t) {
     if (!mesh.alive_triangle(t)) continue;
     const std::array<Vec3, 3> p = corners(mesh, t);
-    emphasize(centroid_planes[t], (p[0] + p[1] + p[2]) / 3);
+    for (int k = 0; k < 3; ++k) emphasize(edge_planes[t][k], midpoint(p, k));
   }
 }
 
@@ -317,26 +317,28 @@ void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool searc
 void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool search) {
   const std::array<Vec3, 3> p = corners(mesh, t);
   const Vec3 normal = area_vector(p);
-  const Vec3 centroid = (p[0] + p[1] + p[2]) / 3;
-  TangentPlane& plane = centroid_planes[t];
-  centroid_weights[t] = 0.375 * plane.emphasis * length(normal);
-  const bool known = plane.facet >= 0 && !search;
-  if (known) plane.move_to(walk_foot(centroid, plane.facet));
-  if (!known || dot(surface().normals[plane.facet], normal) < 0)
-    plane.move_to(search_foot(centroid, normal));
+  edge_weights[t] = 0.125 * length(normal);
+  for (int k = 0; k < 3; ++k) {
+    TangentPlane& plane = edge_planes[t][k];
+    const Vec3 middle = midpoint(p, k);
+    const bool known = plane.facet >= 0 && !search;
+    if (known) plane.move_to(walk_foot(middle, plane.facet));
+    if (!known || dot(surface().normals[plane.facet], normal) < 0)
+      plane.move_to(search_foot(middle, normal));
+  }
 }
 
 void Fidelity::update_planes(const mesh::EditableMesh& mesh, const parallel::Workers& workers,
                              bool search) {
   vertex_planes.resize(mesh.vertex_capacity());
   vertex_weights.resize(mesh.vertex_capacity());
-  centroid_planes.resize(mesh.triangle_capacity());
-  centroid_weights.resize(mesh.triangle_capacity());
+  edge_planes.resize(mesh.triangle_capacity());
+  edge_weights.resize(mesh.triangle_capacity());
   workers.for_each(vertex_planes.size(), kChunk, [&](std::size_t v) {
     if (mesh.alive_vertex(static_cast<Index>(v)))
       update_vertex(mesh, static_cast<Index>(v), search);
   });
-  workers.for_each(centroid_planes.size(), kChunk, [&](std::size_t t) {
+  workers.for_each(edge_planes.size(), kChunk, [&](std::size_t t) {
     if (mesh.alive_triangle(static_cast<Index>(t)))
       update_triangle(mesh, static_cast<Index>(t), search);
   });
@@ -344,13 +346,17 @@ void Fidelity::update_planes(const mesh::EditableMesh& mesh, const parallel::Wor
 
 double Fidelity::triangle(Index t, const std::array<Vec3, 3>& p,
                           std::array<Vec3, 3>* gradient) const {
-  const TangentPlane& plane = centroid_planes[t];
-  const double weight = weights.to_surface * centroid_weights[t];
-  const double height = dot((p[0] + p[1] + p[2]) / 3 - plane.point, plane.normal) - plane.offset;
-  double energy = weight * height * height;
-  if (gradient) {
-    const Vec3 g = (2.0 / 3) * weight * height * plane.normal;
-    for (Vec3& corner : *gradient) corner += g;
+  double energy = 0;
+  for (int k = 0; k < 3; ++k) {
+    const TangentPlane& plane = edge_planes[t][k];
+    const double weight = weights.to_surface * edge_weights[t] * plane.emphasis;
+    const double height = dot(midpoint(p, k) - plane.point, plane.normal) - plane.offset;
+    energy += weight * height * height;
+    if (gradient) {
+      const Vec3 g = weight * height * plane.normal;
+      (*gradient)[next(k)] += g;
+      (*gradient)[previous(k)] += g;
+    }
   }
   if (first[t] < 0) return energy;
   const TriangleFrame frame(p[0], p[1], p[2]);

@@ -1,6 +1,6 @@
 // Two-sided distance between the surface M and the mesh T as an energy: area-uniform samples of M
-// against their nearest triangles of T, vertices and centroids of T against tangent planes of M.
-// Which triangle and which plane is frozen between updates; the closest point on the triangle is
+// against their nearest triangles of T, vertices and edge midpoints of T against tangent planes of
+// M. Which triangle and which plane is frozen between updates; the closest point on the triangle is
 // not, so the gradient is exact by the envelope theorem. A sample only looks at triangles whose
 // normal agrees with its own facet's, and a foot only at such facets: the two sheets of a thin
 // part never see each other.
@@ -42,6 +42,10 @@ struct TangentPlane {
   }
 };
 
+/// Planes under the midpoints of a triangle's edges, edge k opposite corner k. An edge that cuts
+/// across a valley shows at its middle, not at the triangle's centroid.
+using EdgePlanes = std::array<TangentPlane, 3>;
+
 struct FidelityWeights {
   double to_mesh = 10;     ///< M -> T
   double to_surface = 10;  ///< T -> M
@@ -62,11 +66,11 @@ class Fidelity {
 
   FidelityWeights weights;
   std::vector<Sample> samples;
-  std::vector<Index> first;                   ///< #T, head of each triangle's list of samples
-  std::vector<TangentPlane> vertex_planes;    ///< #V
-  std::vector<TangentPlane> centroid_planes;  ///< #T
-  std::vector<double> vertex_weights;         ///< #V, frozen: ring area / 12
-  std::vector<double> centroid_weights;       ///< #T, frozen: 3/4 of the area
+  std::vector<Index> first;                 ///< #T, head of each triangle's list of samples
+  std::vector<TangentPlane> vertex_planes;  ///< #V
+  std::vector<EdgePlanes> edge_planes;      ///< #T by 3
+  std::vector<double> vertex_weights;       ///< #V, frozen: ring area / 12
+  std::vector<double> edge_weights;         ///< #T, frozen: a quarter of the area for each edge
 
   /// Gives every sample to the nearest triangle that agrees with it, by search.
   void search_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
@@ -75,7 +79,7 @@ class Fidelity {
   void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
   void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
-  /// Points of T that stick out: multiplies by `growth` the weights of vertices and centroids
+  /// Points of T that stick out: multiplies by `growth` the weights of vertices and midpoints
   /// farther than `far` from their tangent planes.
   void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);
   /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
@@ -85,7 +89,7 @@ class Fidelity {
                                double growth, const parallel::Workers& workers);
   /// Gives the samples of these triangles to the nearest of them (after a local edit).
   void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
-  /// Feet, tangent planes and weights of all vertices and centroids: by search where there is none
+  /// Feet, tangent planes and weights of all vertices and midpoints: by search where there is none
   /// yet or with `search`, else by walking over M.
   void update_planes(const mesh::EditableMesh& mesh, const parallel::Workers& workers,
                      bool search = false);
@@ -93,7 +97,7 @@ class Fidelity {
   void update_vertex(const mesh::EditableMesh& mesh, Index vertex, bool search = false);
   void update_triangle(const mesh::EditableMesh& mesh, Index triangle, bool search = false);
 
-  /// Energy of the samples and the centroid of a triangle with corners p; adds to `gradient`.
+  /// Energy of the samples and the edges of a triangle with corners p; adds to `gradient`.
   double triangle(Index t, const std::array<Vec3, 3>& p, std::array<Vec3, 3>* gradient) const;
   /// Energy of a vertex at p against its tangent plane; adds to `gradient`.
   double vertex(Index v, const Vec3& p, Vec3* gradient) const;
@@ -114,6 +118,11 @@ class Fidelity {
   void sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles);
   [[nodiscard]] TangentPlane plane(const Vec3& p, const Vec3& foot, Index facet) const;
 };
+
+/// Middle of the edge opposite corner k.
+inline Vec3 midpoint(const std::array<Vec3, 3>& p, int k) {
+  return 0.5 * (p[mesh::next(k)] + p[mesh::previous(k)]);
+}
 
 /// Corner positions of a triangle.
 inline std::array<Vec3, 3> corners(const mesh::EditableMesh& mesh, Index t) {

@@ -106,8 +106,8 @@ Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit)
   const Index made = apply_edit(mesh, edit);
   for (Index t = static_cast<Index>(fidelity.first.size()); t < mesh.triangle_capacity(); ++t) {
     fidelity.first.push_back(-1);
-    fidelity.centroid_planes.emplace_back();
-    fidelity.centroid_weights.push_back(0);
+    fidelity.edge_planes.emplace_back();
+    fidelity.edge_weights.push_back(0);
     concerned.push_back(t);
   }
   fidelity.redistribute(mesh, concerned);
@@ -168,8 +168,8 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
 
   fidelity.weights = whole_fidelity.weights;
   for (Index t : triangle) {
-    fidelity.centroid_planes.push_back(whole_fidelity.centroid_planes[t]);
-    fidelity.centroid_weights.push_back(whole_fidelity.centroid_weights[t]);
+    fidelity.edge_planes.push_back(whole_fidelity.edge_planes[t]);
+    fidelity.edge_weights.push_back(whole_fidelity.edge_weights[t]);
     Index head = -1;
     for (Index s = whole_fidelity.first[t]; s >= 0; s = whole_fidelity.samples[s].next) {
       fidelity.samples.push_back(whole_fidelity.samples[s]);

@@ -87,7 +87,7 @@ Index separate_sheets(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialO
     for (const auto& [a, b] : pairs) places.push_back(a), places.push_back(b);
     sort_unique(places);
     for (Index t : places) {
-      fidelity.centroid_planes[t].push_out(kPush, kEmphasis);
+      for (TangentPlane& plane : fidelity.edge_planes[t]) plane.push_out(kPush, kEmphasis);
       fidelity.update_triangle(mesh, t);
     }
     for (Index v : dilated(mesh, places, 0)) {

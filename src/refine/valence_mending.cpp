@@ -114,7 +114,7 @@ void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index cen
     for (Index v : reached) {
       if (fidelity.vertex_planes[v].facet < 0) fidelity.update_vertex(mesh, v);
       for_ring(mesh, v, [&](Index t, int) {
-        if (fidelity.centroid_planes[t].facet < 0) fidelity.update_triangle(mesh, t);
+        if (fidelity.edge_planes[t][0].facet < 0) fidelity.update_triangle(mesh, t);
         for (Index u : mesh.triangle(t)) more.push_back(u);
       });
     }

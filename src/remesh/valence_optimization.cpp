@@ -24,8 +24,8 @@ Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   fidelity.search_samples(mesh, workers);
   fidelity.vertex_planes.resize(mesh.vertex_capacity());
   fidelity.vertex_weights.resize(mesh.vertex_capacity());
-  fidelity.centroid_planes.resize(mesh.triangle_capacity());
-  fidelity.centroid_weights.resize(mesh.triangle_capacity());
+  fidelity.edge_planes.resize(mesh.triangle_capacity());
+  fidelity.edge_weights.resize(mesh.triangle_capacity());
   refine::TrialOptions options;
   options.shape = energy::hinged(10, 35, 86);
   options.goal = {35, 86};
