@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 _MOST = np.iinfo(np.int32).max
 
 
-def _rows_of_three(given: ArrayLike, name: str) -> NDArray[np.generic]:
+def _rows_of_three(given: ArrayLike, name: str) -> NDArray[Any]:
     try:
         array = np.asarray(given)
     except ValueError as error:  # rows of different lengths
@@ -40,8 +40,10 @@ def faces(given: ArrayLike) -> NDArray[np.int32]:
     array = _rows_of_three(given, "faces")
     if array.dtype == np.int32 or array.size == 0:
         return np.ascontiguousarray(array, dtype=np.int32)
-    if array.dtype.kind == "f" and not bool(np.all(array == np.floor(array))):
-        raise TypeError("faces must be vertex indices: whole numbers, not fractions.")
+    if array.dtype.kind == "f":
+        array = array.astype(np.float64)
+        if not bool(np.all(array == np.floor(array))):
+            raise TypeError("faces must be vertex indices: whole numbers, not fractions.")
     outside = ~((array >= 0) & (array <= _MOST))
     if bool(outside.any()):
         row = int(np.argmax(outside.any(axis=1)))
@@ -64,7 +66,6 @@ def whole_number(given: object, name: str, most: int = _MOST) -> int:
 
 def number(given: object, name: str) -> float:
     """A float from any real number."""
-    if isinstance(given, (str, bytes)) or not hasattr(given, "__float__"):
-        if not hasattr(given, "__index__"):
-            raise TypeError(f"{name} must be a number, not {given!r}.")
+    if not hasattr(given, "__float__") and not hasattr(given, "__index__"):
+        raise TypeError(f"{name} must be a number, not {given!r}.")
     return float(given)  # type: ignore[arg-type]

@@ -77,9 +77,7 @@ def remesh(
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be callable, not {progress!r}.")
     count = _arrays.whole_number(threads, "threads")
-    outcome = _core.remesh(
-        *given, **options, threads=count, progress=progress, clean=bool(clean)
-    )
+    outcome = _core.remesh(*given, **options, threads=count, progress=progress, clean=bool(clean))
     result = _result(outcome, given, options, start)
     error = outcome["error"]
     if isinstance(error, KeyboardInterrupt):
@@ -130,9 +128,7 @@ def _options(
     }
 
 
-def _result(
-    outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start: float
-) -> Result:
+def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start: float) -> Result:
     result = Result()
     for name in ("vertices", "faces", "source_triangle", "barycentric"):
         setattr(result, name, outcome[name])

@@ -29,7 +29,8 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * size
 template <class Row, class Array>
 std::vector<Row> rows_of(const Array& array) {
   std::vector<Row> rows(array.shape(0));
-  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(Row));
+  if (!rows.empty())
+    std::memcpy(static_cast<void*>(rows.data()), array.data(), rows.size() * sizeof(Row));
   return rows;
 }
 

@@ -13,8 +13,8 @@ void bind_quality(nb::module_& module);
 void bind_remesh(nb::module_& module);
 void bind_stages(nb::module_& module);
 
-/// The objects of docs/json.md as dictionaries.
-nb::dict to_dict(const AngleQuality& angles);
+/// The objects "angles" and "repairs" of docs/json.md.
+nb::dict angles_dict(const AngleQuality& angles);
 nb::list to_list(const std::vector<Repair>& repairs);
 /// (min_angle, max_angle, certified, triangles, too_large, too_small), the lists as arrays.
 nb::tuple to_tuple(Certificate&& certificate);

@@ -46,7 +46,7 @@ nb::dict measure_arrays(const VertexArray& vertices, const FaceArray& faces,
   }
   nb::dict d;
   d["vertices"] = mesh.vertices.size();
-  d["angles"] = to_dict(report.angles);
+  d["angles"] = angles_dict(report.angles);
   d["topology"] = to_dict(report.topology);
   d["self_intersections"] = report.self_intersections;
   if (with_reference) d["flipped"] = report.flipped;
@@ -67,7 +67,7 @@ nb::tuple certify_arrays(const VertexArray& vertices, const FaceArray& faces, do
 
 }  // namespace
 
-nb::dict to_dict(const AngleQuality& angles) {
+nb::dict angles_dict(const AngleQuality& angles) {
   nb::dict d;
   d["triangles"] = angles.triangles;
   d["obtuse"] = angles.obtuse;

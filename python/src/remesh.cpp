@@ -30,7 +30,7 @@ class Watcher {
       if (callback_.is_none()) return true;
       return goes_on(callback_(stage_, progress.fraction, message_of(progress)));
     } catch (nb::python_error& error) {
-      error_ = error.value();
+      error_ = nb::borrow(error.value());
       return false;
     }
   }
@@ -126,8 +126,8 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["status"] = name_of(result.status);
   d["certificate"] = to_tuple(std::move(result.certificate));
   d["goal"] = to_tuple(std::move(result.goal));
-  d["after"] = to_dict(result.angles);
-  d["before"] = to_dict(outcome.before);
+  d["after"] = angles_dict(result.angles);
+  d["before"] = angles_dict(outcome.before);
   d["stages"] = stages;
   d["repairs"] = to_list(outcome.repairs);
   d["repaired"] = outcome.repairs.empty()

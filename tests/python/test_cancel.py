@@ -110,7 +110,7 @@ def test_the_gil_is_free_meanwhile(big):
 def test_arrays_are_not_kept(mesh):
     vertices, faces = (np.array(array) for array in mesh)
     before = sys.getrefcount(vertices), sys.getrefcount(faces)
-    callback = lambda *_: None  # noqa: E731
+    callback = lambda *_: None
     callback_before = sys.getrefcount(callback)
     for _ in range(3):
         nonobtuse.remesh(vertices, faces, vertices=300, method="cvt", progress=callback)

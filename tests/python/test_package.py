@@ -35,7 +35,7 @@ def test_nothing_heavy_is_imported():
         "import numpy, sys; before = set(sys.modules); import nonobtuse;"
         "print(*sorted(m for m in set(sys.modules) - before if not m.startswith('nonobtuse')))"
     )
-    assert run_python(code).stdout.split() == []
+    assert set(run_python(code).stdout.split()) <= {"__future__", "atexit"}
 
 
 def test_nothing_is_left_at_exit():
@@ -119,7 +119,8 @@ def test_stubs_and_types(tmp_path):
         [*check, "use.py"], capture_output=True, text=True, check=False, cwd=tmp_path
     )
     assert re.findall(r"use.py:(\d+): error", run.stdout) == ["10", "11"], run.stdout
-    assert len(re.findall(r"ndarray\[.*(?:signedinteger|floating)", run.stdout)) == 2, run.stdout
+    revealed = r"use.py:(?:9|12): note: .*ndarray\[.*(?:signedinteger|float)"
+    assert len(re.findall(revealed, run.stdout)) == 2, run.stdout
 
 
 def test_the_stub_names_what_the_module_has():

@@ -147,7 +147,7 @@ def test_edge_length_in_three_ways():
         ({"threads": -1}, ValueError, "threads"),
         ({"progress": 3}, TypeError, "callable"),
         ({"vertexes": 3}, TypeError, "vertexes"),
-        ({"vertices": 100, "edge_length": 0.1}, ValueError, ""),
+        ({"vertices": 100, "edge_length": 0.1}, ValueError, "edge length"),
     ],
 )
 def test_options_are_checked_in_words(mesh, options, error, words):

@@ -64,9 +64,7 @@ def test_localized_cells_are_connected_across_a_thin_slab():
     x, y = np.meshgrid(np.arange(n, dtype=float), np.arange(n, dtype=float))
     sheet = np.stack([x.ravel(), y.ravel(), np.zeros(n * n)], 1)
     i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
-    quads = np.concatenate(
-        [np.stack([i, i + 1, i + n + 1], 1), np.stack([i, i + n + 1, i + n], 1)]
-    )
+    quads = np.concatenate([np.stack([i, i + 1, i + n + 1], 1), np.stack([i, i + n + 1, i + n], 1)])
     vertices = np.concatenate([sheet, sheet + [0, 0, -0.01]])
     faces = np.concatenate([quads, quads[:, ::-1] + n * n])
     sites = np.concatenate([sites_on(sheet, quads, 30), sites_on(sheet, quads, 30, 1)])
