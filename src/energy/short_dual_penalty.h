@@ -28,9 +28,10 @@ std::vector<double> short_dual_weights(std::span<const Vec3> sites,
 /// diagonal of its second derivatives, 2 scale ((sum_j w)^2 + sum_j w^2), to `gradient` (#X) and
 /// `diagonal` (#X).
 ///
-/// r_i has a normal part, of the size of the mean curvature, that shrinks the surface. With unit
-/// `normals` (#X by 3, frozen) only the tangential part of each r_i counts; with none (empty) R is
-/// Eq. 4 to the letter.
+/// r_i has a normal part, of the size of the mean curvature: sites free to leave the surface are
+/// drawn inwards by it, sites held on the surface are drawn to where the curvature changes. With
+/// unit `normals` (#X by 3, frozen) only the tangential part of each r_i counts; with none (empty)
+/// R is Eq. 4 to the letter.
 double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const rvd::DualEdge> edges,
                               std::span<const double> weights, std::span<const Vec3> normals,
                               double scale, std::span<Vec3> gradient, std::span<double> diagonal);

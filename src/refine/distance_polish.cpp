@@ -10,42 +10,72 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr int kRounds = 6;
+constexpr int kPatience = 2;          // rounds that bring nothing
 constexpr double kGrowth = 2;         // of the weights of the farthest points
 constexpr double kNearLargest = 0.7;  // points at this part of the largest distance count as far
-constexpr double kFarFactor = 5;      // in root mean square distances
+constexpr double kFarFactor = 3;      // in root mean square distances
 constexpr double kNewWeight = 0.2;    // of vertices of M that become samples
+
+struct FarPoint {
+  double distance;
+  Index triangle;
+  double* factor;  // what scales the point's weight
+};
 
 double sample_distance(const mesh::EditableMesh& mesh, Index t, const Sample& sample) {
   const std::array<Vec3, 3> p = corners(mesh, t);
   return std::sqrt(TriangleFrame(p[0], p[1], p[2]).closest(sample.point).squared_distance);
 }
 
-// Calls visit(distance, triangle, factor) for every point measured; `factor` is what scales the
-// point's weight.
-template <class Visit>
-void for_points(const mesh::EditableMesh& mesh, Fidelity& fidelity, const Visit& visit) {
+spatial::TriangleBvh hierarchy(const mesh::EditableMesh& mesh, const parallel::Workers& workers) {
+  std::vector<Triangle> triangles;
+  for (const Triangle& t : mesh.triangles())
+    if (t[0] >= 0) triangles.push_back(t);
+  return {mesh.positions, triangles, workers};
+}
+
+// Whether a distance to the point's own sheet can be meant: on crumpled surfaces the foot may be
+// lost on a wrong one, far beyond what is nearest at all.
+bool credible(double own, double squared_nearest) { return squared_nearest >= 0.25 * own * own; }
+
+// Points of both sides at least `far` from the other side.
+std::vector<FarPoint> far_points(const mesh::EditableMesh& mesh, Fidelity& fidelity, double far,
+                                 const parallel::Workers& workers) {
+  std::vector<FarPoint> points;
+  const auto add_plane = [&](TangentPlane& plane, const Vec3& p, Index t) {
+    const double d = distance(p, plane.point);
+    if (d < far) return;
+    if (credible(d, fidelity.surface_bvh().closest(p).squared_distance))
+      points.push_back({d, t, &plane.emphasis});
+  };
+  spatial::TriangleBvh bvh;
+  bool built = false;
   for (Index t = 0; t < mesh.triangle_capacity(); ++t) {
     if (!mesh.alive_triangle(t)) continue;
-    for (Index s = fidelity.first[t]; s >= 0; s = fidelity.samples[s].next)
-      visit(sample_distance(mesh, t, fidelity.samples[s]), t, fidelity.samples[s].weight);
+    for (Index s = fidelity.first[t]; s >= 0; s = fidelity.samples[s].next) {
+      Sample& sample = fidelity.samples[s];
+      const double d = sample_distance(mesh, t, sample);
+      if (d < far) continue;
+      if (!built) bvh = hierarchy(mesh, workers), built = true;
+      if (credible(d, bvh.closest(sample.point).squared_distance))
+        points.push_back({d, t, &sample.weight});
+    }
     const std::array<Vec3, 3> p = corners(mesh, t);
-    TangentPlane& plane = fidelity.centroid_planes[t];
-    visit(distance((p[0] + p[1] + p[2]) / 3, plane.point), t, plane.emphasis);
+    add_plane(fidelity.centroid_planes[t], (p[0] + p[1] + p[2]) / 3, t);
   }
   for (Index v = 0; v < mesh.vertex_capacity(); ++v)
     if (mesh.alive_vertex(v) && !mesh.on_boundary(v))
-      visit(distance(mesh.positions[v], fidelity.vertex_planes[v].point), mesh.triangle_of(v),
-            fidelity.vertex_planes[v].emphasis);
+      add_plane(fidelity.vertex_planes[v], mesh.positions[v], mesh.triangle_of(v));
+  return points;
+}
+
+double largest_distance(const std::vector<FarPoint>& points) {
+  double largest = 0;
+  for (const FarPoint& p : points) largest = std::max(largest, p.distance);
+  return largest;
 }
 
 }  // namespace
-
-double largest_distance(const mesh::EditableMesh& mesh, const Fidelity& fidelity) {
-  double largest = 0;
-  for_points(mesh, const_cast<Fidelity&>(fidelity),
-             [&](double d, Index, double&) { largest = std::max(largest, d); });
-  return largest;
-}
 
 void polish_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options,
                      const parallel::Workers& workers,
@@ -54,27 +84,33 @@ void polish_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOp
   const double rms = std::sqrt(fidelity.mean_square(mesh));
   fidelity.emphasize_far_vertices(mesh, kFarFactor * rms, kNewWeight, 1, workers);
   const std::size_t outside = triangles_outside(mesh, goal).size();
-  double least = largest_distance(mesh, fidelity);
+  std::vector<FarPoint> points = far_points(mesh, fidelity, kFarFactor * rms, workers);
+  double largest = largest_distance(points), least = largest;
   mesh::EditableMesh best_mesh = mesh;
   Fidelity best_fidelity = fidelity;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0, idle = 0; round < kRounds && idle < kPatience && !points.empty(); ++round) {
     if (!keep_going(static_cast<double>(round) / kRounds)) break;
-    const double far = std::max(kNearLargest * largest_distance(mesh, fidelity), kFarFactor * rms);
     std::vector<Index> places;
-    for_points(mesh, fidelity, [&](double d, Index t, double& factor) {
-      if (d < far) return;
-      factor *= kGrowth;
-      places.push_back(t);
-    });
-    if (places.empty()) break;
+    for (const FarPoint& p : points) {
+      if (p.distance < kNearLargest * largest) continue;
+      *p.factor *= kGrowth;
+      places.push_back(p.triangle);
+    }
     const std::vector<Index> active = dilated(mesh, places, 2);
     const std::vector<Index> touched = triangles_around(mesh, active);
     for (int i = 0; i < 2; ++i) {
       relax(mesh, fidelity, active, {options.shape, 3, options.on_surface}, workers);
       fidelity.rewalk(mesh, touched);
     }
-    const double largest = largest_distance(mesh, fidelity);
-    if (largest >= least || triangles_outside(mesh, goal).size() > outside) continue;
+    fidelity.emphasize_far_vertices(mesh, std::max(least, kFarFactor * rms), kNewWeight, 1,
+                                    workers);
+    points = far_points(mesh, fidelity, kFarFactor * rms, workers);
+    largest = largest_distance(points);
+    if (largest >= least || triangles_outside(mesh, goal).size() > outside) {
+      ++idle;
+      continue;
+    }
+    idle = 0;
     least = largest;
     best_mesh = mesh;
     best_fidelity = fidelity;

@@ -8,9 +8,6 @@
 
 namespace nonobtuse::refine {
 
-/// Largest distance of a sample from its triangle, or of a vertex or centroid from its foot.
-double largest_distance(const mesh::EditableMesh& mesh, const Fidelity& fidelity);
-
 /// Lowers the largest distance without letting more triangles leave `options.goal`; keeps the best
 /// state. Only places farther than a few times the mean distance are touched.
 void polish_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options,

@@ -142,7 +142,7 @@ bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t
   if (against == 3) return true;
   for (int k = 0; k < 3; ++k) {
     const Index u = mesh.adjacent(t, k);
-    if (u >= 0 && dot(normalized(area_vector(corners(mesh, u))), normal) < -0.5) return true;
+    if (u >= 0 && dot(normalized(area_vector(corners(mesh, u))), normal) < -0.8) return true;
   }
   return false;
 }

@@ -84,7 +84,7 @@ class Patch {
 };
 
 /// Triangles of the mesh that are turned over against the surface under their vertices, or folded
-/// onto a neighbour (normals more than 120 degrees apart).
+/// onto a neighbour (normals more than 143 degrees apart).
 bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t);
 
 }  // namespace nonobtuse::refine

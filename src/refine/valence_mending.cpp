@@ -23,6 +23,9 @@ class Mender {
          const parallel::Workers& workers)
       : mesh_(mesh), fidelity_(fidelity), options_(options), strict_(strict), workers_(workers) {}
 
+  // From now on sharp bends are taken: on a blade's edge neighbours may well look folded.
+  void be_bold() { bold_ = true; }
+
   bool by_flips(Index v, const Effort& effort) {
     const Patch patch = patch_around(v, effort.rings);
     return commit_best(patch, search_valence_edits(patch, patch.local(v), {effort.flips, 12, 0}));
@@ -54,7 +57,7 @@ class Mender {
     std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
     if (!best) return false;
     const PatchScore before = score(patch, options_);
-    if (after.folded > before.folded || after.bad_valence >= before.bad_valence ||
+    if ((!bold_ && after.folded > before.folded) || after.bad_valence >= before.bad_valence ||
         !std::isfinite(after.energy) || (strict_ && after.outside_promise > before.outside_promise))
       return false;
     best->commit(mesh_, fidelity_);
@@ -65,6 +68,7 @@ class Mender {
   Fidelity& fidelity_;
   const TrialOptions& options_;
   bool strict_;
+  bool bold_ = false;
   const parallel::Workers& workers_;
 };
 
@@ -152,6 +156,7 @@ Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
     const std::vector<Index> bad = bad_valences(mesh);
     if (bad.empty()) return 0;
     const Effort effort = efforts[std::min(pass, 2)];
+    if (pass >= kPasses - 2) mender.be_bold();
     for (Index v : bad) {
       if (!keep_going()) return static_cast<Index>(bad_valences(mesh).size());
       if (!mesh.alive_vertex(v) || good_valence(mesh.valence(v), mesh.on_boundary(v))) continue;

@@ -28,8 +28,9 @@ struct PaperOptions {
   double short_dual = 0.01;
   /// epsilon of Eq. 4, relative to the edge's length.
   double relative_epsilon = 0.1;
-  /// Drop the normal part of the penalty, which shrinks the surface; the paper keeps it.
-  bool tangential = true;
+  /// Drop the normal part of the penalty's vectors r_i. Without (as in the paper) sites that are
+  /// held on the surface come out closer to it, with it the angles are a little better.
+  bool tangential = false;
   /// Weight of the circumcentre term (Sieger et al. 2010), times area / #X; not in the paper.
   double circumcentre = 0;
   /// Weight of the angle hinge, times 6.23 F_cvt / #X; not in the paper.

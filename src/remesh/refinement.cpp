@@ -14,6 +14,7 @@
 #include "refine/flips.h"
 #include "refine/global_descent.h"
 #include "refine/sheet_separation.h"
+#include "refine/valence_mending.h"
 
 namespace nonobtuse::pipeline {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 constexpr Index kSamplesPerVertex = 8;
 constexpr int kStepsBetweenFlips = 5;
 constexpr double kFidelity = 20;  // weight at the start
-constexpr double kLeastFidelity = 6;
+constexpr double kLeastFidelity = 8;
 constexpr double kMostFidelity = 40;
 // Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
 constexpr double kMeanQuality = 0.9465;
@@ -64,13 +65,14 @@ class Refinement {
     }
     const refine::AngleGoal goal{lo, hi};
     if (monitor_.cancelled()) return outside_goal(goal);
-    const Index outside =
-        refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,
-                             [&](double f) { return tick(0.75 + 0.15 * f); });
     refine::TrialOptions local;
     local.goal = goal;
     local.shape = energy::hinged(100, lo + 1, hi - 1);
     local.on_surface = options_.on_surface;
+    refine::mend_valences(mesh_, fidelity_, local, false, workers_, [&] { return tick(0.75); });
+    const Index outside =
+        refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,
+                             [&](double f) { return tick(0.75 + 0.15 * f); });
     refine::polish_distance(mesh_, fidelity_, local, workers_,
                             [&](double f) { return tick(0.9 + 0.05 * f); });
     refine::separate_sheets(mesh_, fidelity_, local, workers_,

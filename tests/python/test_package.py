@@ -63,7 +63,7 @@ def test_memory_comes_back(mesh):
     for _ in range(20):
         once()
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    rounds = 200
+    rounds = 100
     for _ in range(rounds):
         once()
     grown = 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)

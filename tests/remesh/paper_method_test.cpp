@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         PaperOptions{},
         PaperOptions{
-            .tangential = false, .valence = ValenceStep::Resampling, .resampling_rounds = 4},
+            .tangential = true, .valence = ValenceStep::Resampling, .resampling_rounds = 4},
         PaperOptions{
             .short_dual = 0, .circumcentre = 1, .valence = ValenceStep::None, .iterations = 15},
         PaperOptions{.short_dual = 0, .hinge = 1, .iterations = 15},
