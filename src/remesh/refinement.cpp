@@ -56,6 +56,7 @@ class Refinement {
     descend(14, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
     const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
     for (int round = 0; round < 3; ++round) {
+      if (monitor_.cancelled()) return outside_goal({lo, hi});
       const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
       fidelity_.emphasize_far_points(mesh_, 2 * far, kFarGrowth);
       fidelity_.emphasize_far_vertices(mesh_, far, kFarWeight, kFarGrowth, workers_);
@@ -63,6 +64,7 @@ class Refinement {
       descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }
     const refine::AngleGoal goal{lo, hi};
+    if (monitor_.cancelled()) return outside_goal(goal);
     refine::TrialOptions local;
     local.goal = goal;
     local.shape = energy::hinged(100, lo + 1, hi - 1);
@@ -108,6 +110,7 @@ class Refinement {
       descent_.run(std::min(kStepsBetweenFlips, iterations - done),
                    [&] { return !monitor_.cancelled(); });
     }
+    if (monitor_.cancelled()) return;
     fidelity_.walk_samples(mesh_, workers_);
     refine::flip_edges(mesh_, fidelity_, shape);
     fidelity_.update_planes(mesh_, workers_);
@@ -130,6 +133,10 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
+  if (monitor.cancelled()) {
+    const refine::AngleTest test({options.min_angle, options.max_angle});
+    return static_cast<Index>(refine::triangles_outside(mesh, test).size());
+  }
   const Index outside = Refinement(surface, mesh, options, workers, monitor).run();
   mesh.compact();
   return outside;

@@ -41,7 +41,8 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const Reme
   pipeline::Extraction extraction = clock.run("extraction", 0.4, 0.5, [&] {
     return pipeline::extract(surface, std::move(sites), workers, monitor);
   });
-  if (options.method != Method::Default) return std::move(extraction.mesh);
+  // After a cancellation what there is goes out at once.
+  if (options.method != Method::Default || monitor.cancelled()) return std::move(extraction.mesh);
   clock.run("valence", 0.5, 0.55,
             [&] { return pipeline::optimize_valence(surface, extraction.mesh, workers, monitor); });
   clock.run("refinement", 0.55, 1, [&] {

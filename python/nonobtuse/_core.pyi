@@ -1,0 +1,56 @@
+# The extension module, python/src: arrays must be contiguous, nothing has a default.
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Points = NDArray[np.float64]
+_Indices = NDArray[np.int32]
+_Mesh = tuple[_Points, _Indices, list[dict[str, Any]]]
+
+version: str
+
+def read(path: bytes, /) -> _Mesh: ...
+def write(path: bytes, vertices: _Points, faces: _Indices, binary: bool, /) -> None: ...
+def clean(vertices: _Points, faces: _Indices, /) -> _Mesh: ...
+def sample(resolution: int, /) -> _Mesh: ...
+def measure(
+    vertices: _Points,
+    faces: _Indices,
+    reference_vertices: _Points,
+    reference_faces: _Indices,
+    with_reference: bool,
+    threads: int,
+    /,
+) -> dict[str, Any]: ...
+def certify(
+    vertices: _Points, faces: _Indices, min_angle: float, max_angle: float, /
+) -> tuple[float, float, bool, int, _Indices, _Indices]: ...
+def remesh(
+    vertices_given: _Points,
+    faces_given: _Indices,
+    /,
+    *,
+    vertices: int,
+    edge_length: float,
+    relative_edge_length: float,
+    method: str,
+    min_angle: float,
+    max_angle: float,
+    on_surface: bool,
+    penalty: float,
+    seed: int,
+    threads: int,
+    progress: Callable[[str, float, str], object] | None,
+    clean: bool,
+) -> dict[str, Any]: ...
+def restricted_voronoi(
+    vertices: _Points, faces: _Indices, sites: _Points, localized: bool, threads: int, /
+) -> tuple[_Indices, _Indices, _Indices, _Points, _Indices, _Indices, _Points]: ...
+def restricted_delaunay(
+    vertices: _Points, faces: _Indices, sites: _Points, localized: bool, threads: int, /
+) -> _Indices: ...
+def cvt_energy(
+    vertices: _Points, faces: _Indices, sites: _Points, threads: int, /
+) -> tuple[float, _Points, _Points, _Points]: ...

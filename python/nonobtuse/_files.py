@@ -1,0 +1,49 @@
+"""Mesh files in and out, cleaning, the sample."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from . import _arrays, _core
+from ._results import Mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+def read(path: str | os.PathLike[str]) -> Mesh:
+    """Reads OBJ, OFF, PLY or STL (text or binary), told by content, in double precision.
+
+    Only what the format itself demands is done: polygons are triangulated, equal corners of an STL
+    welded (see ``.repairs``). `remesh` cleans what it is given; `clean` does so alone.
+
+    Raises OSError, and InvalidInput for indices out of range and coordinates that are not finite.
+    """
+    os.stat(path)  # a missing file gets its usual exception
+    return Mesh(*_core.read(os.fsencode(path)))
+
+
+def write(
+    path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike, *, binary: bool = True
+) -> None:
+    """Writes .obj, .off, .ply or .stl, whole or not at all.
+
+    Texts hold the shortest numbers that read back the same; ``binary`` is for PLY and STL.
+    Raises OSError, and InvalidInput for what the format cannot hold.
+    """
+    _core.write(os.fsencode(path), _arrays.points(vertices), _arrays.faces(faces), bool(binary))
+
+
+def clean(vertices: ArrayLike, faces: ArrayLike) -> Mesh:
+    """Makes a mesh fit for remeshing; what was done is listed in ``.repairs``.
+
+    Drops degenerate faces and unused vertices, turns faces that disagree with their neighbours.
+    Raises InvalidInput, with the element's index, for what cannot be mended.
+    """
+    return Mesh(*_core.clean(_arrays.points(vertices), _arrays.faces(faces)))
+
+
+def sample(resolution: int = 64) -> Mesh:
+    """A surface of genus 3 from marching cubes on a ``resolution``^3 grid, full of bad triangles."""
+    return Mesh(*_core.sample(_arrays.whole_number(resolution, "resolution")))

@@ -1,0 +1,180 @@
+"""The one call."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _arrays, _core
+from ._errors import Cancelled, InvalidInput
+from ._results import Certificate, Mesh, Report, Result, Status
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Literal
+
+    from numpy.typing import ArrayLike, NDArray
+
+_METHODS = ("default", "cvt", "cvt-nob")
+_NAMED = 5  # triangles that a report names
+
+
+def remesh(
+    V: ArrayLike,
+    F: ArrayLike,
+    /,
+    *,
+    vertices: int | None = None,
+    edge_length: float | str | None = None,
+    relative_edge_length: float | None = None,
+    method: Literal["default", "cvt", "cvt-nob"] = "default",
+    min_angle: float = 40,
+    max_angle: float = 80,
+    on_surface: bool = False,
+    penalty: float = 0.01,
+    seed: int = 0,
+    threads: int = 0,
+    progress: Callable[[str, float, str], object] | None = None,
+    clean: bool = True,
+) -> Result:
+    """Remeshes the surface (V, F) so that every angle lies in [min_angle, max_angle) degrees.
+
+    V, F: vertices (n, 3) and faces (m, 3) of an orientable manifold; never changed.
+    vertices: number of output vertices, exactly; by default as many as the input has.
+    edge_length: target edge length in input units instead, or with a per cent sign ("1%") relative
+        to the diagonal of the bounding box; relative_edge_length: the same as a fraction (0.01).
+    method: "default"; "cvt", centroidal Voronoi tessellation alone; "cvt-nob", the paper's own.
+    min_angle, max_angle: bounds to reach, degrees. The promise is [30, 90).
+    on_surface: keep vertices on the input, not at the offset that minimises the distance.
+    penalty: weight of the short-dual penalty of "cvt-nob".
+    seed: of the random start. Same input, options and seed: same bits.
+    threads: 0 takes all cores; the result does not depend on it.
+    progress: called as progress(stage, fraction, message) in this thread; returning False cancels
+        (the status says so), an exception cancels and is raised.
+    clean: mend the input first (see `clean`); ``report["repairs"]`` says what was done.
+
+    Angles that could not be brought inside the bounds are listed in ``goal`` and ``certificate``.
+
+    Raises InvalidInput for an input or option that cannot be used, its subclass TooFewVertices if
+    the topology needs more vertices, and on Ctrl-C Cancelled, a KeyboardInterrupt whose ``result``
+    holds the best mesh so far.
+    """
+    start = time.perf_counter()
+    given = Mesh(_arrays.points(V), _arrays.faces(F))
+    options = _options(
+        vertices=vertices,
+        edge_length=edge_length,
+        relative_edge_length=relative_edge_length,
+        method=method,
+        min_angle=min_angle,
+        max_angle=max_angle,
+        on_surface=on_surface,
+        penalty=penalty,
+        seed=seed,
+    )
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be callable, not {progress!r}.")
+    count = _arrays.whole_number(threads, "threads")
+    outcome = _core.remesh(*given, **options, threads=count, progress=progress, clean=bool(clean))
+    result = _result(outcome, given, options, start)
+    error = outcome["error"]
+    if isinstance(error, KeyboardInterrupt):
+        raise Cancelled(result) from error
+    if error is not None:
+        raise error
+    return result
+
+
+def _options(
+    *,
+    vertices: int | None,
+    edge_length: float | str | None,
+    relative_edge_length: float | None,
+    method: str,
+    **others: Any,
+) -> dict[str, Any]:
+    if vertices is not None and _arrays.whole_number(vertices, "vertices") == 0:
+        raise InvalidInput("vertices must be at least 1, not 0.")
+    if isinstance(edge_length, str):
+        if relative_edge_length is not None or not edge_length.endswith("%"):
+            raise InvalidInput(f"edge_length must be a number or like '1%', not {edge_length!r}.")
+        try:
+            relative_edge_length = float(edge_length[:-1]) / 100
+        except ValueError:
+            raise InvalidInput(f"edge_length must be like '1%', not {edge_length!r}.") from None
+        edge_length = None
+    lengths: dict[str, float] = {"edge_length": 0, "relative_edge_length": 0}
+    for name, length in (
+        ("edge_length", edge_length),
+        ("relative_edge_length", relative_edge_length),
+    ):
+        if length is not None:
+            lengths[name] = _arrays.number(length, name)
+            if not 0 < lengths[name] < float("inf"):
+                raise InvalidInput(f"{name} must be a positive number, not {length!r}.")
+    if method not in _METHODS:
+        raise InvalidInput(f"method must be one of {', '.join(_METHODS)}, not {method!r}.")
+    return {
+        "vertices": 0 if vertices is None else _arrays.whole_number(vertices, "vertices"),
+        **lengths,
+        "method": method,
+        "min_angle": _arrays.number(others["min_angle"], "min_angle"),
+        "max_angle": _arrays.number(others["max_angle"], "max_angle"),
+        "on_surface": bool(others["on_surface"]),
+        "penalty": _arrays.number(others["penalty"], "penalty"),
+        "seed": _arrays.whole_number(others["seed"], "seed", 2**64 - 1),
+    }
+
+
+def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start: float) -> Result:
+    result = Result()
+    for name in ("vertices", "faces", "source_triangle", "barycentric"):
+        setattr(result, name, outcome[name])
+    result.status = Status(outcome["status"])
+    result.certificate = Certificate(*outcome["certificate"])
+    result.goal = Certificate(*outcome["goal"])
+    result.source = given if outcome["repaired"] is None else Mesh(*outcome["repaired"])
+    result.report = Report(
+        version=_core.version,
+        status=result.status.value,
+        options=options,
+        repairs=outcome["repairs"],
+        before=outcome["before"],
+        before_vertices=len(result.source.vertices),
+        after=outcome["after"],
+        after_vertices=len(result.vertices),
+        goal=_certificate_report(result.goal, result.mesh),
+        promise=_certificate_report(result.certificate, result.mesh),
+        seconds=time.perf_counter() - start,
+        stages=outcome["stages"],
+    )
+    return result
+
+
+def _certificate_report(certificate: Certificate, mesh: Mesh) -> dict[str, Any]:
+    report: dict[str, Any] = {
+        "min_angle": certificate.min_angle,
+        "max_angle": certificate.max_angle,
+        "certified": certificate.certified,
+        "triangles": certificate.triangles,
+    }
+    for name in ("too_large", "too_small"):
+        triangles = getattr(certificate, name)
+        report[name] = len(triangles)
+        report["worst_" + name] = [
+            {"triangle": int(t), "smallest_angle": a[0], "largest_angle": a[2]}
+            for t in triangles[:_NAMED]
+            for a in [_angles(mesh.vertices[mesh.faces[t]])]
+        ]
+    return report
+
+
+def _angles(corners: NDArray[np.float64]) -> list[float]:
+    """The three angles of one triangle, degrees, ascending."""
+    u = np.roll(corners, -1, axis=0) - corners
+    v = np.roll(corners, -2, axis=0) - corners
+    areas = np.linalg.norm(np.cross(u, v), axis=1)
+    angles: list[float] = np.sort(np.degrees(np.arctan2(areas, (u * v).sum(axis=1)))).tolist()
+    return angles

@@ -1,0 +1,24 @@
+// The parts of the extension module, one function and one file each, and what they share.
+#pragma once
+
+#include "arrays.h"
+#include "nonobtuse/certificate.h"
+#include "nonobtuse/io.h"
+#include "nonobtuse/quality.h"
+
+namespace nonobtuse::python {
+
+void bind_files(nb::module_& module);
+void bind_quality(nb::module_& module);
+void bind_remesh(nb::module_& module);
+void bind_stages(nb::module_& module);
+
+/// The objects "angles" and "repairs" of docs/json.md.
+nb::dict angles_dict(const AngleQuality& angles);
+nb::list to_list(const std::vector<Repair>& repairs);
+/// (min_angle, max_angle, certified, triangles, too_large, too_small), the lists as arrays.
+nb::tuple to_tuple(Certificate&& certificate);
+/// (vertices, faces, repairs)
+nb::tuple to_tuple(TriangleMesh&& mesh, const std::vector<Repair>& repairs);
+
+}  // namespace nonobtuse::python

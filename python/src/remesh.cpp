@@ -1,0 +1,176 @@
+// The one call, with progress and Ctrl-C.
+#include "nonobtuse/remesh.h"
+
+#include <nanobind/stl/string.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "bindings.h"
+
+namespace nonobtuse::python {
+namespace {
+
+// Hears the progress of a call: looks for signals, tells the user's callback, and keeps what either
+// raised. At most every 20 ms, so that the GIL is not asked for in vain, and when a stage begins.
+class Watcher {
+ public:
+  explicit Watcher(nb::object callback) : callback_(std::move(callback)) {}
+
+  // Called without the GIL. False: stop.
+  bool hear(const Progress& progress) {
+    const auto now = std::chrono::steady_clock::now();
+    if (progress.stage == stage_ && now - heard_ < std::chrono::milliseconds(20)) return true;
+    stage_ = progress.stage;
+    heard_ = now;
+    const nb::gil_scoped_acquire acquire;
+    try {
+      if (PyErr_CheckSignals() != 0) throw nb::python_error();
+      if (callback_.is_none()) return true;
+      return goes_on(callback_(stage_, progress.fraction, message_of(progress)));
+    } catch (nb::python_error& error) {
+      error_ = nb::borrow(error.value());
+      return false;
+    }
+  }
+
+  [[nodiscard]] bool failed() const { return error_.is_valid(); }
+  [[nodiscard]] nb::object error() const { return failed() ? error_ : nb::none(); }
+
+ private:
+  static std::string message_of(const Progress& progress) {
+    if (!progress.message.empty() || progress.obtuse < 0) return std::string(progress.message);
+    return std::to_string(progress.obtuse) + " obtuse triangles";
+  }
+
+  // Only a false truth value stops, numpy's too; None or a number, as of a callback that returns
+  // whatever its last call did, does not.
+  static bool goes_on(const nb::object& answer) {
+    const bool truth_value = PyBool_Check(answer.ptr()) != 0 ||
+                             std::string(Py_TYPE(answer.ptr())->tp_name).starts_with("numpy.bool");
+    if (!truth_value) return true;
+    const int truth = PyObject_IsTrue(answer.ptr());
+    if (truth < 0) throw nb::python_error();
+    return truth == 1;
+  }
+
+  nb::object callback_;
+  nb::object error_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point heard_;
+};
+
+// What a call gives; the input in full only if it was repaired.
+struct Outcome {
+  std::vector<Repair> repairs;
+  TriangleMesh repaired;
+  AngleQuality before;
+  RemeshResult result;
+};
+
+Outcome clean_and_remesh(const TriangleMesh& given, bool clean_first, const RemeshOptions& options,
+                         const Context& context, const Watcher& watcher) {
+  Outcome outcome;
+  const TriangleMesh* input = &given;
+  if (clean_first) {
+    CleanResult cleaned = clean(given);
+    outcome.repairs = std::move(cleaned.repairs);
+    if (!outcome.repairs.empty()) {
+      outcome.repaired = std::move(cleaned.mesh);
+      input = &outcome.repaired;
+    }
+  }
+  try {
+    outcome.result = remesh(*input, options, context);
+  } catch (...) {
+    if (!watcher.failed()) throw;
+    outcome.result.status = Status::Cancelled;  // what was raised in Python comes first
+  }
+  outcome.before = measure_angles(*input);
+  return outcome;
+}
+
+const char* name_of(Status status) {
+  switch (status) {
+    case Status::Converged:
+      return "converged";
+    case Status::AnglesRemain:
+      return "angles_remain";
+    case Status::Cancelled:
+      return "cancelled";
+  }
+  return "";
+}
+
+Method method_of(const std::string& name) {
+  if (name == "cvt") return Method::Cvt;
+  if (name == "cvt-nob") return Method::CvtNob;
+  return Method::Default;  // the Python side has checked the name
+}
+
+nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
+  RemeshResult& result = outcome.result;
+  nb::list stages;
+  for (const StageTime& stage : result.stages) {
+    nb::dict entry;
+    entry["stage"] = stage.stage;
+    entry["seconds"] = stage.seconds;
+    stages.append(entry);
+  }
+  nb::dict d;
+  d["vertices"] = array_of(std::move(result.mesh.vertices));
+  d["faces"] = array_of(std::move(result.mesh.triangles));
+  d["source_triangle"] = array_of(std::move(result.source_triangle));
+  d["barycentric"] = array_of(std::move(result.barycentric));
+  d["status"] = name_of(result.status);
+  d["certificate"] = to_tuple(std::move(result.certificate));
+  d["goal"] = to_tuple(std::move(result.goal));
+  d["after"] = angles_dict(result.angles);
+  d["before"] = angles_dict(outcome.before);
+  d["stages"] = stages;
+  d["repairs"] = to_list(outcome.repairs);
+  d["repaired"] = outcome.repairs.empty()
+                      ? nb::none()
+                      : nb::object(to_tuple(std::move(outcome.repaired), outcome.repairs));
+  d["error"] = error;
+  return d;
+}
+
+nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Index count,
+                       double edge_length, double relative_edge_length, const std::string& method,
+                       double min_angle, double max_angle, bool on_surface, double penalty,
+                       std::uint64_t seed, int threads, nb::object progress, bool clean_first) {
+  const TriangleMesh given = mesh_of(vertices, faces);
+  RemeshOptions options;
+  options.vertices = count;
+  options.edge_length = edge_length;
+  options.relative_edge_length = relative_edge_length;
+  options.method = method_of(method);
+  options.min_angle = min_angle;
+  options.max_angle = max_angle;
+  options.on_surface = on_surface;
+  options.penalty = penalty;
+  options.seed = seed;
+  Watcher watcher(std::move(progress));
+  Context context;
+  context.threads = threads;
+  context.progress = [&watcher](const Progress& p) { return watcher.hear(p); };
+  Outcome outcome;
+  {
+    const nb::gil_scoped_release release;
+    outcome = clean_and_remesh(given, clean_first, options, context, watcher);
+  }
+  return to_dict(std::move(outcome), watcher.error());
+}
+
+}  // namespace
+
+void bind_remesh(nb::module_& module) {
+  module.def("remesh", remesh_arrays, nb::arg(), nb::arg(), nb::kw_only(), nb::arg("vertices"),
+             nb::arg("edge_length"), nb::arg("relative_edge_length"), nb::arg("method"),
+             nb::arg("min_angle"), nb::arg("max_angle"), nb::arg("on_surface"), nb::arg("penalty"),
+             nb::arg("seed"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("clean"));
+}
+
+}  // namespace nonobtuse::python
