@@ -15,7 +15,8 @@ enum class Method {
 };
 
 struct RemeshOptions {
-  /// Number of output vertices, exactly; 0 = as many as the input has (unless edge_length is set).
+  /// Number of output vertices, exactly, at most 1e8; 0 = as many as the input has (unless
+  /// edge_length is set).
   Index vertices = 0;
   /// Target edge length in input units, instead of `vertices`; 0 = unset.
   double edge_length = 0;
@@ -25,7 +26,8 @@ struct RemeshOptions {
   /// Bounds to reach, degrees: 0 <= min_angle < 60 < max_angle. The promise is [30, 90).
   double min_angle = 40;
   double max_angle = 80;
-  /// Keep every vertex on the input surface instead of at the offset that minimises the distance.
+  /// Keep every vertex on the input surface instead of at the offset that minimises the distance;
+  /// `Method::Default` only.
   bool on_surface = false;
   /// Weight lambda of the short-dual penalty in `Method::CvtNob` (Eq. 3), times area / vertices.
   double penalty = 0.01;

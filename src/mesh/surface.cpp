@@ -8,7 +8,7 @@ namespace nonobtuse::mesh {
 
 std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>& triangles,
                                                      Index vertex_count) {
-  // Half-edges bucketed by their smaller vertex: linear, and independent of hashing.
+  // Half-edges bucketed by their smaller vertex: independent of hashing.
   const Index count = vertex_count;
   std::vector<std::size_t> start(count + 1, 0);
   const auto lower = [](const Triangle& t, int k) { return std::min(t[next(k)], t[previous(k)]); };
@@ -22,11 +22,22 @@ std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>
       half_edges[fill[lower(triangles[t], k)]++] = {static_cast<Index>(t), k};
 
   std::vector<std::array<Index, 3>> adjacent(triangles.size(), {-1, -1, -1});
+  const auto upper = [&](const std::pair<Index, int>& half_edge) {
+    const Triangle& t = triangles[half_edge.first];
+    return std::max(t[next(half_edge.second)], t[previous(half_edge.second)]);
+  };
   for (Index v = 0; v < count; ++v) {
+    // Half-edges of one edge side by side, so that a vertex of any valence costs n log n.
+    std::sort(half_edges.begin() + static_cast<std::ptrdiff_t>(start[v]),
+              half_edges.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
+              [&](const auto& a, const auto& b) {
+                return std::pair(upper(a), a) < std::pair(upper(b), b);
+              });
     for (std::size_t i = start[v]; i < start[v + 1]; ++i) {
       const auto [t, k] = half_edges[i];
       const Triangle& a = triangles[t];
-      for (std::size_t j = i + 1; j < start[v + 1]; ++j) {
+      for (std::size_t j = i + 1; j < start[v + 1] && upper(half_edges[j]) == upper(half_edges[i]);
+           ++j) {
         const auto [u, l] = half_edges[j];
         const Triangle& b = triangles[u];
         const bool opposite = a[next(k)] == b[previous(l)] && a[previous(k)] == b[next(l)];

@@ -13,6 +13,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #endif
 
@@ -75,7 +76,11 @@ void Workers::dispatch(std::size_t chunks, const std::function<void(std::size_t)
   };
   std::vector<std::thread> others;
   const std::size_t count = std::min(chunks, static_cast<std::size_t>(threads_));
-  for (std::size_t i = 1; i < count; ++i) others.emplace_back(work);
+  try {
+    for (std::size_t i = 1; i < count; ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The system grants no more threads: those there are do all the work.
+  }
   work();
   for (std::thread& t : others) t.join();
   if (failure) std::rethrow_exception(failure);

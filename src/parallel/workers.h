@@ -22,8 +22,8 @@ class Workers {
   [[nodiscard]] int threads() const { return threads_; }
 
   /// Calls body(begin, end, chunk) for every chunk of at most `chunk_size` of [0, count). Chunks
-  /// run in any order, on any thread; the first exception thrown is rethrown here. Not nestable
-  /// from inside a body (a nested call runs serially).
+  /// run in any order, on any thread; the first exception thrown is rethrown here. Bodies
+  /// should not call it again: that brings no further threads.
   template <class Body>
   void for_chunks(std::size_t count, std::size_t chunk_size, const Body& body) const {
     const std::size_t chunks = (count + chunk_size - 1) / chunk_size;

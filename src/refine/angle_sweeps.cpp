@@ -25,10 +25,19 @@ void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
            RelaxationOptions options, double hinge_growth, const parallel::Workers& workers,
            const std::function<bool(double)>& keep_going) {
   const AngleTest test(aim);
+  const AngleTest promise(kPromise);
+  const auto worth = [&](const std::vector<Index>& outside) {
+    const auto broken = std::count_if(outside.begin(), outside.end(),
+                                      [&](Index t) { return !promise.inside(mesh, t); });
+    return std::pair(broken, outside.size());
+  };
   std::vector<Index> bad = triangles_outside(mesh, test);
   std::size_t least = bad.size();
+  auto best_worth = worth(bad);
+  mesh::EditableMesh best_mesh = mesh;
+  Fidelity best_fidelity = fidelity;
   for (int sweep = 0, idle = 0; sweep < kSweeps && idle < kPatience && !bad.empty(); ++sweep) {
-    if (!keep_going(static_cast<double>(sweep) / kSweeps)) return;
+    if (!keep_going(static_cast<double>(sweep) / kSweeps)) break;
     const std::vector<Index> active = dilated(mesh, bad, 2);
     relax(mesh, fidelity, active, options, workers);
     const std::vector<Index> touched = triangles_around(mesh, active);
@@ -38,6 +47,16 @@ void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
     idle = bad.size() < least ? 0 : idle + 1;
     if (idle > 0) options.shape.hinge *= hinge_growth;
     least = std::min(least, bad.size());
+    // On a tie the later state: it is the more relaxed one.
+    if (const auto now = worth(bad); now <= best_worth) {
+      best_worth = now;
+      best_mesh = mesh;
+      best_fidelity = fidelity;
+    }
+  }
+  if (worth(bad) > best_worth) {
+    mesh = std::move(best_mesh);
+    fidelity = std::move(best_fidelity);
   }
 }
 

@@ -2,12 +2,9 @@
 // (Heawood 1890; Jungerman, Ringel 1980).
 #include "remesh/parts.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "mesh/surface.h"
-#include "nonobtuse/error.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/normalization.h"
 
@@ -58,20 +55,19 @@ std::vector<Part> connected_parts(const TriangleMesh& mesh) {
   return parts;
 }
 
+Index least_vertices(const std::vector<Part>& parts) {
+  Index sum = 0;
+  for (const Part& part : parts) sum += part.least;
+  return sum;
+}
+
 std::vector<Index> share_vertices(const std::vector<Part>& parts, Index n) {
   Components components;
   std::vector<Index> least;
-  Index needed = 0;
   for (const Part& part : parts) {
     components.area.push_back(part.area);
     least.push_back(part.least);
-    needed += part.least;
   }
-  if (needed > n)
-    throw TooFewVertices(fmt::format("{} vertices are too few for this surface: its topology needs "
-                                     "{} or more; ask for at least that many.",
-                                     n, needed),
-                         needed);
   return share_sites(components, n, least);
 }
 

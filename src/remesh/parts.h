@@ -13,14 +13,18 @@ struct Part {
   TriangleMesh mesh;
   std::vector<Index> facet;  ///< #F of the part: its triangle in the whole mesh
   double area = 0;
-  Index least = 4;  ///< vertices its topology needs at least (Heawood; 3 for a disc)
+  Index least = 4;  ///< vertices to give it at least: first what any surface of its topology needs
+                    ///< (Heawood; 3 for a disc), then what was found to do
 };
 
 /// By lowest triangle index. The order of vertices and triangles is kept. The mesh must be clean.
 std::vector<Part> connected_parts(const TriangleMesh& mesh);
 
-/// n vertices shared out in proportion to area, at least `least` for each part. Throws
-/// TooFewVertices if their sum is larger than n.
+/// Sum of `least` over the parts.
+Index least_vertices(const std::vector<Part>& parts);
+
+/// n vertices shared out in proportion to area, at least `least` for each part; n must not be
+/// smaller than their sum.
 std::vector<Index> share_vertices(const std::vector<Part>& parts, Index n);
 
 }  // namespace nonobtuse::pipeline

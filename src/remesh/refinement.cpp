@@ -92,8 +92,11 @@ class Refinement {
   void adapt_weights() {
     const double aim = mesh_.vertex_count() > 10000 ? kMeanQualityLarge : kMeanQuality;
     const double excess = refine::mean_quality(mesh_) - aim;
-    const double weight = std::clamp(fidelity_.weights.to_mesh * std::exp(150 * excess),
-                                     kLeastFidelity, kMostFidelity);
+    // exp(x) in Pade's form: libm's own bits differ from system to system.
+    const double x = std::clamp(150 * excess, -3.0, 3.0);
+    const double factor = (12 + 6 * x + x * x) / (12 - 6 * x + x * x);
+    const double weight =
+        std::clamp(fidelity_.weights.to_mesh * factor, kLeastFidelity, kMostFidelity);
     fidelity_.weights.to_mesh = weight;
     if (!options_.on_surface) fidelity_.weights.to_surface = weight;
   }

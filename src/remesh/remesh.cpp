@@ -1,7 +1,9 @@
-// The driver: calls the steps in order, nothing else.
+// The driver: calls the steps in order, on every connected component.
 // Yan & Wonka, Non-obtuse Remeshing with Centroidal Voronoi Tessellation, TVCG 2016, section 4.2;
 // the obtuse removal is replaced by refinement on the mesh (docs/pipeline.md).
 #include "nonobtuse/remesh.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
@@ -25,9 +27,11 @@ namespace nonobtuse {
 
 namespace {
 
-// The pipeline on one connected surface, with n vertices.
-mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const RemeshOptions& options,
-                               const parallel::Workers& workers, pipeline::StageClock& clock) {
+// From a connected surface to its first mesh with n vertices: sites, their optimisation,
+// extraction.
+mesh::EditableMesh sites_and_mesh(const mesh::Surface& surface, Index n,
+                                  const RemeshOptions& options, const parallel::Workers& workers,
+                                  pipeline::StageClock& clock) {
   parallel::Monitor& monitor = clock.monitor();
   std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
     return pipeline::optimize_cvt(surface, pipeline::cvt_options(options, n), workers, monitor);
@@ -38,18 +42,25 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const Reme
                                           {.short_dual = options.penalty, .seed = options.seed},
                                           workers, monitor);
     });
-  pipeline::Extraction extraction = clock.run("extraction", 0.4, 0.5, [&] {
-    return pipeline::extract(surface, std::move(sites), workers, monitor);
-  });
+  return clock
+      .run("extraction", 0.4, 0.5,
+           [&] { return pipeline::extract(surface, std::move(sites), workers, monitor); })
+      .mesh;
+}
+
+// The pipeline on one connected surface, with n vertices.
+mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const RemeshOptions& options,
+                               const parallel::Workers& workers, pipeline::StageClock& clock) {
+  parallel::Monitor& monitor = clock.monitor();
+  mesh::EditableMesh mesh = sites_and_mesh(surface, n, options, workers, clock);
   // After a cancellation what there is goes out at once.
-  if (options.method != Method::Default || monitor.cancelled()) return std::move(extraction.mesh);
+  if (options.method != Method::Default || monitor.cancelled()) return mesh;
   clock.run("valence", 0.5, 0.55,
-            [&] { return pipeline::optimize_valence(surface, extraction.mesh, workers, monitor); });
+            [&] { return pipeline::optimize_valence(surface, mesh, workers, monitor); });
   clock.run("refinement", 0.55, 1, [&] {
-    return pipeline::refine(surface, extraction.mesh, pipeline::refinement_options(options),
-                            workers, monitor);
+    return pipeline::refine(surface, mesh, pipeline::refinement_options(options), workers, monitor);
   });
-  return std::move(extraction.mesh);
+  return mesh;
 }
 
 // All parts with the vertices they were given; a part that needs more says so in `least`, and the
@@ -77,6 +88,32 @@ bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& 
   return complete;
 }
 
+// Sets `least` of every part to a number of vertices that was tried and does.
+void find_least_vertices(std::vector<pipeline::Part>& parts, const RemeshOptions& options,
+                         const parallel::Workers& workers, pipeline::StageClock& clock) {
+  for (pipeline::Part& part : parts) {
+    for (bool enough = false; !enough;) {
+      try {
+        const pipeline::NormalizedInput input = pipeline::normalize(part.mesh, part.least);
+        sites_and_mesh(input.surface, part.least, options, workers, clock);
+        enough = true;
+      } catch (const TooFewVertices& too_few) {
+        part.least = std::max(too_few.least(), part.least + 1);
+      }
+    }
+  }
+}
+
+void require_vertices(const std::vector<pipeline::Part>& parts, Index n) {
+  const Index least = pipeline::least_vertices(parts);
+  if (least > n)
+    throw TooFewVertices(
+        fmt::format("{} vertices are too few for the topology of this surface; the "
+                    "least found to do is {}: ask for that many or more.",
+                    n, least),
+        least);
+}
+
 }  // namespace
 
 RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
@@ -89,12 +126,20 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   std::vector<StageTime> stages;
   pipeline::StageClock clock(monitor, stages);
 
-  // Parts that turn out to need more vertices take them from the others; `share_vertices` throws
-  // when there are no more to take, so that this ends.
+  // Parts that turn out to need more vertices take them from the others, until all have enough or
+  // there are no more to take.
   std::vector<pipeline::Part> parts = pipeline::connected_parts(input);
   RemeshResult result;
-  while (!remesh_parts(parts, pipeline::share_vertices(parts, n), options, workers, clock, result))
+  bool searched = false;
+  do {
+    if (pipeline::least_vertices(parts) > n) {
+      if (!searched) find_least_vertices(parts, options, workers, clock);
+      searched = true;
+      require_vertices(parts, n);
+    }
     result = {};
+  } while (
+      !remesh_parts(parts, pipeline::share_vertices(parts, n), options, workers, clock, result));
 
   clock.begin_part(0, 1);
   clock.run("certification", 0.97, 1, [&] { pipeline::certify_result(options, result); });

@@ -16,6 +16,7 @@ namespace nonobtuse::pipeline {
 namespace {
 
 constexpr int kPaperIterations = 40;
+constexpr Index kMostVertices = 100'000'000;  // so that no 32-bit index overflows
 
 double bounding_box_diagonal(const TriangleMesh& mesh) {
   Vec3 low = mesh.vertices.front();
@@ -24,7 +25,7 @@ double bounding_box_diagonal(const TriangleMesh& mesh) {
     low = min(low, v);
     high = max(high, v);
   }
-  return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
+  return distance(low, high);
 }
 
 }  // namespace
@@ -37,6 +38,11 @@ void check_options(const RemeshOptions& options) {
   if (options.vertices < 0)
     throw InvalidInput(
         fmt::format("the number of vertices must be positive, not {}.", options.vertices));
+  if (options.vertices > kMostVertices)
+    throw InvalidInput(
+        fmt::format("{} vertices are more than the most, {}.", options.vertices, kMostVertices));
+  if (options.on_surface && options.method != Method::Default)
+    throw InvalidInput("vertices are kept on the surface by the default method only.");
   for (const double length : {options.edge_length, options.relative_edge_length})
     if (!(length >= 0) || !std::isfinite(length))
       throw InvalidInput(
@@ -76,9 +82,9 @@ Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options) {
     h = options.relative_edge_length * bounding_box_diagonal(input);
   if (h <= 0) return static_cast<Index>(std::max<std::size_t>(4, input.vertices.size()));
   const double n = std::round(surface_area(input) / (0.5 * std::sqrt(3.0) * h * h));
-  if (!(n < 1e9))
-    throw InvalidInput(
-        fmt::format("an edge length of {} asks for {:.3g} vertices; the most is 1e9.", h, n));
+  if (!(n <= kMostVertices))
+    throw InvalidInput(fmt::format("an edge length of {} asks for {:.3g} vertices; the most is {}.",
+                                   h, n, kMostVertices));
   return std::max(static_cast<Index>(n), Index{4});
 }
 

@@ -97,8 +97,9 @@ Vec3 random_place(const Neighborhood& near, const PlacedSites& placed, Index sit
                   numeric::Random& random) {
   const std::vector<Index> choice = near.ring(site, rings - 1);
   const Index base = choice[random.below(choice.size())];
-  const std::span<const Index> around = near.of(base);  // not empty: base has triangles
+  const std::span<const Index> around = near.of(base);
   const Vec3 p = placed.sites[base];
+  if (around.empty()) return p;  // a site without a cell
   const Vec3 a = placed.sites[around[random.below(around.size())]] - p;
   const Vec3 b = placed.sites[around[random.below(around.size())]] - p;
   double u = random.uniform();

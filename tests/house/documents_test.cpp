@@ -45,7 +45,7 @@ TEST(Documents, NamedFilesExist) {
       EXPECT_TRUE(std::filesystem::exists(house::root() / name)) << file << " names " << name;
 }
 
-// A test named as `Suite.Name` in docs/pipeline.md is defined in the test file of the same row.
+// A test named as `Suite.Name` in docs/pipeline.md is defined in some test file.
 TEST(Documents, NamedTestsExist) {
   std::string tests;
   for (const std::string& file : house::project_files())
