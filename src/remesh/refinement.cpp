@@ -45,6 +45,7 @@ class Refinement {
         descent_(mesh, fidelity_, options.on_surface, workers) {
     fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
+    if (!surface.size.empty()) fidelity_.size.measure(mesh);
     fidelity_.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
     fidelity_.search_samples(mesh, workers);
     fidelity_.update_planes(mesh, workers);
