@@ -10,6 +10,7 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr int kRounds = 6;
+constexpr int kPatience = 2;          // rounds that bring nothing
 constexpr double kGrowth = 2;         // of the weights of the farthest points
 constexpr double kNearLargest = 0.7;  // points at this part of the largest distance count as far
 constexpr double kFarFactor = 3;      // in root mean square distances
@@ -87,7 +88,7 @@ void polish_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOp
   double largest = largest_distance(points), least = largest;
   mesh::EditableMesh best_mesh = mesh;
   Fidelity best_fidelity = fidelity;
-  for (int round = 0; round < kRounds && !points.empty(); ++round) {
+  for (int round = 0, idle = 0; round < kRounds && idle < kPatience && !points.empty(); ++round) {
     if (!keep_going(static_cast<double>(round) / kRounds)) break;
     std::vector<Index> places;
     for (const FarPoint& p : points) {
@@ -105,7 +106,11 @@ void polish_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOp
                                     workers);
     points = far_points(mesh, fidelity, kFarFactor * rms, workers);
     largest = largest_distance(points);
-    if (largest >= least || triangles_outside(mesh, goal).size() > outside) continue;
+    if (largest >= least || triangles_outside(mesh, goal).size() > outside) {
+      ++idle;
+      continue;
+    }
+    idle = 0;
     least = largest;
     best_mesh = mesh;
     best_fidelity = fidelity;

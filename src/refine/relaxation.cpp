@@ -66,6 +66,19 @@ struct RingSolver {
     return symmetrized(h);
   }
 
+  // The Hessian in the tangent plane, and stiff along the normal.
+  [[nodiscard]] Matrix tangential(Index v, const Matrix& h) const {
+    const Vec3 n = fidelity.vertex_planes[v].normal;
+    const double stiff = std::abs(h[0].x) + std::abs(h[1].y) + std::abs(h[2].z);
+    const Vec3 hn = n.x * h[0] + n.y * h[1] + n.z * h[2];  // H n
+    const double nhn = dot(n, hn);
+    // (I - nn') H (I - nn') + stiff nn', column by column
+    const auto column = [&](const Vec3& c, double ni, double hni) {
+      return c - ni * hn - hni * n + ni * (nhn + stiff) * n;
+    };
+    return {column(h[0], n.x, hn.x), column(h[1], n.y, hn.y), column(h[2], n.z, hn.z)};
+  }
+
   // Away from a ring with a triangle without area: to the middle of the neighbours.
   void escape(Index v) const {
     Vec3 sum;
@@ -83,8 +96,11 @@ struct RingSolver {
     Vec3 g;
     const double before = energy(v, p, &g);
     if (!std::isfinite(before)) return escape(v);
-    if (options.on_surface) g = tangent(v, g);
-    const Matrix h = hessian(v, p, g);
+    Matrix h = hessian(v, p, g);
+    if (options.on_surface) {
+      g = tangent(v, g);
+      h = tangential(v, h);
+    }
     const double size = std::abs(h[0].x) + std::abs(h[1].y) + std::abs(h[2].z);
     double damping = 1e-6 * size;
     for (int attempt = 0; attempt < 10; ++attempt, damping = std::max(10 * damping, 1e-3 * size)) {
