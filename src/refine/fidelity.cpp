@@ -304,8 +304,7 @@ TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const
   return result;
 }
 
-TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal,
-                                   double reach) const {
+TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal, double reach) const {
   const auto agrees = [&](Index f) { return dot(surface().normals[f], normal) >= 0; };
   auto hit = surface_bvh_->closest_if(p, reach * reach, agrees);
   if (hit.triangle < 0) hit = surface_bvh_->closest(p);

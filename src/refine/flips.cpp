@@ -34,7 +34,8 @@ double flip_gain(const mesh::EditableMesh& mesh, const Fidelity& fidelity,
   const Vec3 a = mesh.positions[va], b = mesh.positions[vb];
   const Corners old1{p, a, b}, old2{q, b, a}, new1{p, a, q}, new2{q, b, p};
   const TargetSize& size = fidelity.size;
-  const double gain = size.shape({vp, va, vb}, old1, shape) + size.shape({vq, vb, va}, old2, shape) -
+  const double gain = size.shape({vp, va, vb}, old1, shape) +
+                      size.shape({vq, vb, va}, old2, shape) -
                       size.shape({vp, va, vq}, new1, shape) - size.shape({vq, vb, vp}, new2, shape);
   // Fidelity alone may pay for a flip, but not for a much worse shape.
   if (!(gain > -1)) return gain;

@@ -51,8 +51,7 @@ double TargetSize::shape(const Triangle& t, const std::array<Vec3, 3>& p,
 }
 
 double TargetSize::shape(const Triangle& t, const std::array<Vec3, 3>& p,
-                         const energy::ShapeWeights& weights,
-                         std::array<Vec3, 3>& gradient) const {
+                         const energy::ShapeWeights& weights, std::array<Vec3, 3>& gradient) const {
   if (uniform()) return energy::triangle_shape(p[0], p[1], p[2], weights, gradient);
   const double a = area(t);
   const double inverse = 1 / std::sqrt(a);

@@ -29,9 +29,7 @@ class TargetSize {
   /// Factor of the fidelity's weight per area: per vertex, the squared distance counts the same for
   /// sizes from 1/2 to 2; beyond, the distance relative to the size does, since a surface held too
   /// tightly where the mesh is coarse costs angles, and one not held at all shrinks.
-  static double fidelity_factor(double area) {
-    return std::clamp(area, 0.25, 4.0) / (area * area);
-  }
+  static double fidelity_factor(double area) { return std::clamp(area, 0.25, 4.0) / (area * area); }
 
   /// Takes the sizes from the mesh itself: three smoothing passes over the vertices' areas.
   void measure(const mesh::EditableMesh& mesh);

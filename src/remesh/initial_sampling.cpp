@@ -137,8 +137,7 @@ SampledSites sample_strata(const mesh::Surface& surface, const Components& compo
     return numeric::Random(seed, (static_cast<std::uint64_t>(c) << 32) + drawn[c]);
   };
   const auto next_target = [&](Index c) {
-    target[c] =
-        (drawn[c] + stream(c).uniform()) / std::max<Index>(quota[c], 1) * whole[c];
+    target[c] = (drawn[c] + stream(c).uniform()) / std::max<Index>(quota[c], 1) * whole[c];
   };
   const auto draw = [&](Index c, Index piece) {
     numeric::Random random = stream(c);

@@ -70,9 +70,8 @@ std::vector<Index> by_mass(const rvd::CellSums& sums) {
   const std::vector<double>& mass = sums.sites.empty() ? sums.mass : sums.sites;
   std::vector<Index> order(mass.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return std::tie(mass[a], a) < std::tie(mass[b], b);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return std::tie(mass[a], a) < std::tie(mass[b], b); });
   return order;
 }
 

@@ -15,15 +15,15 @@ struct Part {
   std::vector<Index> facet;  ///< #F of the part: its triangle in the whole mesh
   double area = 0;
   std::vector<double> length;  ///< #V: target edge lengths, input units; empty if uniform
-  Index least = 4;  ///< vertices its topology needs at least (Heawood; 3 for a disc)
+  Index least = 4;             ///< vertices its topology needs at least (Heawood; 3 for a disc)
 };
 
 /// By lowest triangle index. The order of vertices and triangles is kept. The mesh must be clean.
 /// With target edge lengths (#V, else empty) `area` is the number of vertices they ask for.
 std::vector<Part> connected_parts(const TriangleMesh& mesh, std::span<const double> length = {});
 
-/// n vertices shared out in proportion to area (with sizing to the vertices asked for), at least `least` for each part. Throws
-/// TooFewVertices if their sum is larger than n.
+/// n vertices shared out in proportion to area (with sizing to the vertices asked for), at least
+/// `least` for each part. Throws TooFewVertices if their sum is larger than n.
 std::vector<Index> share_vertices(const std::vector<Part>& parts, Index n);
 
 }  // namespace nonobtuse::pipeline

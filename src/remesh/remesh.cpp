@@ -98,7 +98,8 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   // when there are no more to take, so that this ends.
   std::vector<pipeline::Part> parts = pipeline::connected_parts(input, field.length);
   RemeshResult result;
-  while (!remesh_parts(parts, pipeline::share_vertices(parts, field.vertices), options, workers, clock, result))
+  while (!remesh_parts(parts, pipeline::share_vertices(parts, field.vertices), options, workers,
+                       clock, result))
     result = {};
 
   clock.begin_part(0, 1);

@@ -60,8 +60,8 @@ void set_sizes(const std::vector<double>& length, NormalizedInput& input) {
   surface.size = length;
   if (length.empty()) return;
   // The integral of size^-2 becomes the area, as it is for a uniform mesh.
-  const double scale = std::sqrt(0.5 * std::sqrt(3.0) * sizing::vertices_for(surface, length) /
-                                 surface.area);
+  const double scale =
+      std::sqrt(0.5 * std::sqrt(3.0) * sizing::vertices_for(surface, length) / surface.area);
   for (double& s : surface.size) s *= scale;
 }
 

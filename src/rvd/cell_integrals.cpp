@@ -52,7 +52,7 @@ struct CellEvaluator::Chunk {
   std::vector<Index> entries;  // positions in `table`, by ascending site
   std::vector<Index> table;    // the sites that stand in the lists
   std::vector<CellSums> sums;  // per site of the table
-  std::vector<double> areas;  // the same, with sizes only
+  std::vector<double> areas;   // the same, with sizes only
   double energy = 0;
   long long relisted = 0;
 };

@@ -73,7 +73,7 @@ class CellEvaluator {
   const parallel::Workers& workers_;
   Index site_count_;
   FacetPieces pieces_;
-  double flat_energy_ = 0;      // see flat_energy
+  double flat_energy_ = 0;  // see flat_energy
   SiteGrid grid_;
   std::vector<Vec3> previous_;  // sites of the last evaluation
   std::vector<double> step_;    // #X: distance moved since

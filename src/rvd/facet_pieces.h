@@ -68,8 +68,8 @@ inline double sites_of(const FacetPieces& pieces, Index piece) {
 }
 
 /// Bisects facets at their longest edge until no edge is longer than 2h, where
-/// h = sqrt(2 area / (sqrt(3) site_count)) is the edge of a regular triangulation. With sizes h is the
-/// local one, and edges along which it varies much are bisected too, since the density is taken
+/// h = sqrt(2 area / (sqrt(3) site_count)) is the edge of a regular triangulation. With sizes h is
+/// the local one, and edges along which it varies much are bisected too, since the density is taken
 /// linear on a piece. The pieces need not be conforming. O(#P log #P) time, O(#P) memory.
 FacetPieces facet_pieces(const mesh::Surface& surface, Index site_count);
 

@@ -324,9 +324,9 @@ CellSums cell_sums(const mesh::Surface& surface, std::span<const Vec3> sites,
         const Vec3& c = corners[m + 1];
         double area = 0.5 * length(area_vector(a, b, c));
         if (!uniform) {
-          const auto foot = spatial::closest_point_on_triangle(
-              sites[i] + (a + b + c) / 3, surface.vertices[t[0]], surface.vertices[t[1]],
-              surface.vertices[t[2]]);
+          const auto foot =
+              spatial::closest_point_on_triangle(sites[i] + (a + b + c) / 3, surface.vertices[t[0]],
+                                                 surface.vertices[t[1]], surface.vertices[t[2]]);
           const double size = surface.size_at(f, foot.barycentric);
           result.sites[i] += area / (size * size);
           area /= size * size * size * size;

@@ -80,8 +80,8 @@ struct DualEdge {
 std::vector<DualEdge> dual_edges(const mesh::Surface& surface, std::span<const Vec3> sites,
                                  const RestrictedVoronoi& diagram);
 
-/// Integrals over the cells of the exact diagram; the density of the surface (size^-4, 1 if uniform)
-/// is taken constant on the triangles that a piece falls into.
+/// Integrals over the cells of the exact diagram; the density of the surface (size^-4, 1 if
+/// uniform) is taken constant on the triangles that a piece falls into.
 struct CellSums {
   double energy = 0;           ///< Eq. 1: sum over cells of the integral of |x - x_i|^2
   std::vector<double> mass;    ///< #X: of each cell; its area if the density is uniform

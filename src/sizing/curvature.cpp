@@ -27,8 +27,7 @@ Tensor facet_tensor(const mesh::Surface& surface, Index f) {
   for (int k = 0; k < 3; ++k) {
     const Index g = surface.adjacent[f][k];
     if (g < 0) continue;
-    const Vec3 edge =
-        surface.vertices[t[mesh::previous(k)]] - surface.vertices[t[mesh::next(k)]];
+    const Vec3 edge = surface.vertices[t[mesh::previous(k)]] - surface.vertices[t[mesh::next(k)]];
     const double l = length(edge);
     if (!(l > 0)) continue;
     const Vec3 direction = edge / l;
@@ -58,8 +57,7 @@ std::vector<double> largest_curvature(const mesh::Surface& surface, double radiu
   workers.for_each(facets, 1024, [&](std::size_t f) {
     tensor[f] = facet_tensor(surface, static_cast<Index>(f));
     const Triangle& t = surface.triangles[f];
-    center[f] =
-        (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
+    center[f] = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
   });
   std::vector<Index> some_facet(surface.vertices.size(), -1);
   for (std::size_t f = facets; f-- > 0;)

@@ -1,6 +1,6 @@
 // From a field of target edge lengths h to densities: a centroidal tessellation spreads rho h^4
-// evenly (Du, Wang, The optimal centroidal Voronoi tessellations and the Gersho's conjecture, 2005),
-// so that rho = h^-4 realises h, with rho^(1/2) sites per area.
+// evenly (Du, Wang, The optimal centroidal Voronoi tessellations and the Gersho's conjecture,
+// 2005), so that rho = h^-4 realises h, with rho^(1/2) sites per area.
 #pragma once
 
 #include <span>

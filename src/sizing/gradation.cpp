@@ -33,8 +33,7 @@ void limit_gradation(const mesh::Surface& surface, double gradation, std::vector
     if (h > length[v]) continue;  // an older entry
     for (Index k = start[v]; k < start[v + 1]; ++k) {
       const Index u = neighbor[k];
-      const double bound =
-          h + gradation * distance(surface.vertices[u], surface.vertices[v]);
+      const double bound = h + gradation * distance(surface.vertices[u], surface.vertices[v]);
       if (!(bound < length[u])) continue;
       length[u] = bound;
       queue.push({bound, u});

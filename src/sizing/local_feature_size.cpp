@@ -67,30 +67,41 @@ Samples spread(const mesh::Surface& surface, Index count) {
   return samples;
 }
 
+// Shrinks the ball that touches p on the side of `normal` so that q is not inside. False if it was
+// not, or if the two contacts are too close together to mean anything.
+bool shrink_to(const Vec3& p, const Vec3& normal, const Vec3& q, double& radius) {
+  const double height = dot(normal, q - p);
+  if (!(height > 0)) return false;
+  const double smaller = squared_distance(p, q) / (2 * height);
+  if (!(smaller < radius * (1 - 1e-9))) return false;
+  const Vec3 center = p + smaller * normal;
+  if (dot(p - center, q - center) > kCosSeparation * smaller * smaller) return false;
+  radius = smaller;
+  return true;
+}
+
 // The empty ball that touches sample `i` on the side of `normal`; false if it stays unbounded.
+// `contact` is the other sample it touches; that of a nearby ball, or -1, on entry.
 bool shrink(const Samples& samples, const spatial::NearestSites& tree, std::size_t i,
-            const Vec3& normal, double largest, Vec3& center) {
+            const Vec3& normal, double largest, Index& contact, Vec3& center) {
   const Vec3 p = samples.points[i];
   std::vector<spatial::NearestSites::Neighbor> near;
   double radius = largest;
-  bool bounded = false;
+  // A first bound that spares searching around centres far from the surface.
+  bool bounded = contact >= 0 && shrink_to(p, normal, samples.points[contact], radius);
+  if (!bounded) contact = -1;
   for (int step = 0; step < kMostShrinks; ++step) {
     tree.nearest(p + radius * normal, 2, near);
     if (near.empty()) break;
-    const auto& other = near[0].site == static_cast<Index>(i) && near.size() > 1 ? near[1] : near[0];
+    const auto& other =
+        near[0].site == static_cast<Index>(i) && near.size() > 1 ? near[1] : near[0];
     if (other.site == static_cast<Index>(i)) break;
     if (other.squared_distance >= radius * radius * (1 - 1e-9)) break;
-    const Vec3 q = samples.points[other.site];
-    const double height = dot(normal, q - p);
-    if (!(height > 0)) break;
-    const double smaller = squared_distance(p, q) / (2 * height);
-    if (!(smaller < radius * (1 - 1e-9))) break;
-    const Vec3 c = p + smaller * normal;
-    if (dot(p - c, q - c) > kCosSeparation * smaller * smaller) break;
-    radius = smaller;
-    center = c;
+    if (!shrink_to(p, normal, samples.points[other.site], radius)) break;
+    contact = other.site;
     bounded = true;
   }
+  center = p + radius * normal;
   return bounded;
 }
 
@@ -102,15 +113,18 @@ std::vector<Vec3> medial_points(const mesh::Surface& surface, Index samples,
   const std::size_t count = spread_samples.points.size();
   spatial::Box box;
   for (const Vec3& v : surface.vertices) box.add(v);
-  const double largest = 2 * distance(box.low, box.high);
+  const double largest = distance(box.low, box.high);
   const spatial::NearestSites tree(spread_samples.points);
   std::vector<Vec3> centers(2 * count);
   std::vector<char> bounded(2 * count, 0);
-  workers.for_each(count, 64, [&](std::size_t i) {
-    const Vec3 n = spread_samples.normals[i];
-    if (squared_length(n) == 0) return;
-    bounded[2 * i] = shrink(spread_samples, tree, i, n, largest, centers[2 * i]);
-    bounded[2 * i + 1] = shrink(spread_samples, tree, i, -n, largest, centers[2 * i + 1]);
+  workers.for_chunks(count, 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+    Index outside = -1, inside = -1;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 n = spread_samples.normals[i];
+      if (squared_length(n) == 0) continue;
+      bounded[2 * i] = shrink(spread_samples, tree, i, n, largest, outside, centers[2 * i]);
+      bounded[2 * i + 1] = shrink(spread_samples, tree, i, -n, largest, inside, centers[2 * i + 1]);
+    }
   });
   std::vector<Vec3> points;
   for (std::size_t k = 0; k < centers.size(); ++k)

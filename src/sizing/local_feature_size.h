@@ -1,5 +1,6 @@
 // Local feature size: the distance of a point of the surface to the medial axis (Amenta, Bern,
-// Surface reconstruction by Voronoi filtering, 1999), where the mesh must be fine to keep the shape.
+// Surface reconstruction by Voronoi filtering, 1999), where the mesh must be fine to keep the
+// shape.
 #pragma once
 
 #include <vector>

@@ -34,8 +34,8 @@ std::vector<double> target_lengths(const mesh::Surface& surface, Sizing sizing,
     const double diagonal = distance(box.low, box.high);
     if (sizing == Sizing::LocalFeatureSize) {
       const Index wanted = std::min(vertices, kMostSamples) * kSamplesPerVertex;
-      length = local_feature_size(surface, std::clamp(wanted, kFewestSamples, kMostSamples),
-                                  workers);
+      length =
+          local_feature_size(surface, std::clamp(wanted, kFewestSamples, kMostSamples), workers);
     } else {
       length = largest_curvature(surface, mean_edge, workers);
       for (double& l : length) l = l > 0 ? 1 / l : diagonal;
