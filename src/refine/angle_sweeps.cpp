@@ -14,6 +14,10 @@ constexpr int kRounds = 3;  // of last resorts
 constexpr int kSweeps = 20;
 constexpr int kPatience = 3;  // sweeps without fewer triangles outside
 constexpr double kHinge = 100;
+// Local edits mend places, not whole meshes: with more triangles outside the goal than this many,
+// or this part of all, only those that break the promise are tried.
+constexpr std::size_t kManyOutside = 50;
+constexpr double kManyOutsidePart = 0.02;
 
 // Relaxes and flips until no triangle is outside `aim` or patience ends; while nothing helps the
 // hinge grows.
@@ -56,7 +60,10 @@ Index sweep_angles(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal
   for (int round = 0; round < kRounds; ++round) {
     sweep(mesh, fidelity, goal, options, 3, workers,
           [&](double f) { return keep_going(0.4 + 0.2 * round + 0.1 * f); });
-    const std::vector<Index> bad = triangles_outside(mesh, test);
+    std::vector<Index> bad = triangles_outside(mesh, test);
+    if (static_cast<double>(bad.size()) >
+        std::max<double>(kManyOutside, kManyOutsidePart * mesh.triangle_count()))
+      bad = triangles_outside(mesh, AngleTest(trial.promise));
     if (bad.empty()) break;
     if (mend_triangles(mesh, fidelity, bad, trial, workers,
                        [&] { return keep_going(0.5 + 0.2 * round); }) == 0 &&

@@ -19,6 +19,7 @@ constexpr int kMostSteps = 40;
 constexpr int kStepsIfValid = 15;   // enough for sites that left the other sheet to settle
 constexpr int kStepsIfFew = 3;      // where less than one cell in a thousand reaches through
 constexpr int kStepsPerRepair = 4;  // between two relocations
+constexpr int kPatience = 12;       // steps without fewer defects: repairs chase each other
 constexpr double kRelaxation = 1.5;
 
 void lloyd_step(const mesh::Surface& surface, const SiteCells& cells, const rvd::CellSums& sums,
@@ -144,7 +145,9 @@ SiteCells site_cells(const mesh::Surface& surface, const std::vector<Vec3>& site
 
 void localize_sites(const mesh::Surface& surface, std::vector<Vec3>& sites, SiteCells& cells,
                     const parallel::Workers& workers, parallel::Monitor& monitor) {
-  for (int step = 0; step < kMostSteps; ++step) {
+  std::size_t fewest = cells.defects.size();
+  int fewest_at = 0;
+  for (int step = 0; step < kMostSteps && step < fewest_at + kPatience; ++step) {
     if (!monitor.tick(0.8 * step / kMostSteps)) return;
     const rvd::CellSums sums = rvd::cell_sums(surface, sites, cells.diagram, cells.localized.owner);
     if (!revive_empty_cells(surface, cells, sums, sites)) {
@@ -155,6 +158,10 @@ void localize_sites(const mesh::Surface& surface, std::vector<Vec3>& sites, Site
       }
     }
     cells = site_cells(surface, sites, workers);
+    if (cells.defects.size() < fewest) {
+      fewest = cells.defects.size();
+      fewest_at = step + 1;
+    }
     const bool few = cells.localized.orphans * 1000 < static_cast<Index>(sites.size());
     if (cells.defects.empty() &&
         (cells.localized.orphans == 0 || step + 1 >= (few ? kStepsIfFew : kStepsIfValid)))

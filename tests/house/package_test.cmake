@@ -18,8 +18,9 @@ if(way STREQUAL "find_package")
   step(${CMAKE_COMMAND} --install ${build} --prefix ${scratch}/prefix)
   list(APPEND arguments -D CMAKE_PREFIX_PATH=${scratch}/prefix -D CMAKE_BUILD_TYPE=Release)
 else()
-  # The same build type, and so the same objects for a compiler cache, as the project itself.
-  list(APPEND arguments -D NONOBTUSE_SOURCE=${source} -D CMAKE_BUILD_TYPE=Release)
+  # Without optimisation: the whole library is compiled again, only to see that it is found.
+  list(APPEND arguments -D NONOBTUSE_SOURCE=${source} -D CMAKE_BUILD_TYPE=Debug
+    -D CMAKE_CXX_FLAGS_DEBUG=-O0)
 endif()
 step(${CMAKE_COMMAND} -S ${source}/tests/house/consumer -B ${scratch}/build ${arguments})
 step(${CMAKE_COMMAND} --build ${scratch}/build --target consumer)
