@@ -34,7 +34,7 @@ struct RemeshOptions {
   Sizing sizing = Sizing::Uniform;
   /// Sizing::Given: the target edge length at every input vertex (#V, positive, input units).
   /// Scaled to the number of vertices asked for; if none is, they themselves say how many.
-  std::vector<double> target_lengths;
+  std::vector<double> target_lengths = {};
   /// Bound on the growth of the target edge length along the surface, per length: h(x) <= h(y) +
   /// gradation |x - y|. > 0; infinite for no limit. Above 0.3 good angles get hard to reach.
   double gradation = 0.25;

@@ -197,13 +197,17 @@ void CellEvaluator::find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratc
 
 void CellEvaluator::relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const {
   const Index count = chunk.end - chunk.begin;
-  const double h = chunk.spacing;
-  const double margin = previous_.empty() ? kFirstMargin * h
-                                          : std::clamp(kMarginPerStep * chunk.last_step,
-                                                       kSmallestMargin * h, kLargestMargin * h);
+  // Where sizes differ inside a chunk, so do the margins: lists of small cells would fill up.
+  const auto margin_of = [&](Index p) {
+    const double h = pieces_.piece_spacing(chunk.begin + p);
+    return previous_.empty() ? kFirstMargin * h
+                             : std::clamp(kMarginPerStep * chunk.last_step, kSmallestMargin * h,
+                                          kLargestMargin * h);
+  };
   scratch.lister.begin(grid_, sites, inflated(chunk.box, chunk.reach));
   for (Index p = 0; p < count; ++p)
-    if (scratch.base[p] >= 0) scratch.lister.announce(scratch.base[p], scratch.radius[p], margin);
+    if (scratch.base[p] >= 0)
+      scratch.lister.announce(scratch.base[p], scratch.radius[p], margin_of(p));
 
   scratch.start.assign(1, 0);
   scratch.entries.clear();
@@ -222,6 +226,7 @@ void CellEvaluator::relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& s
         add(chunk.table[chunk.entries[e]]);
     } else {
       const double radius = scratch.radius[p];
+      const double margin = margin_of(p);
       const double valid =
           scratch.lister.list(pieces_.corners_of(chunk.begin + p), scratch.base[p], radius, margin,
                               0.5 * (chunk.reach - radius), scratch.list);

@@ -42,6 +42,12 @@ struct FacetPieces {
   [[nodiscard]] double chunk_spacing(Index chunk) const {
     return uniform() ? spacing : spacing * chunk_size[chunk];
   }
+  /// The same at a piece, at its least.
+  [[nodiscard]] double piece_spacing(Index piece) const {
+    if (uniform()) return spacing;
+    const std::array<Index, 3>& t = corners[piece];
+    return spacing * std::min({size[t[0]], size[t[1]], size[t[2]]});
+  }
   [[nodiscard]] Index count() const { return static_cast<Index>(corners.size()); }
   [[nodiscard]] Index chunk_count() const { return static_cast<Index>(box.size()); }
 };

@@ -19,7 +19,7 @@ using test::surface_of;
 TEST(LocalFeatureSize, OfASphereIsItsRadius) {
   const mesh::Surface s = surface_of(sphere(5));
   for (const double lfs : local_feature_size(s, 10'000, parallel::Workers(1)))
-    EXPECT_NEAR(lfs, 1, 0.03);
+    EXPECT_NEAR(lfs, 1, 0.06);
 }
 
 // Tube radius 0.2 around a circle of radius 0.7: the tube's core is nearer than the axis in the
@@ -136,8 +136,7 @@ TEST(Density, ScaledFieldsAskForTheVerticesWantedAndKeepTheBound) {
 TEST(TargetLength, OfASphereIsNearlyConstant) {
   const mesh::Surface s = surface_of(sphere(4));
   for (const Sizing sizing : {Sizing::LocalFeatureSize, Sizing::Curvature}) {
-    const std::vector<double> h =
-        target_lengths(s, sizing, {}, 500, 0.25, parallel::Workers(1));
+    const std::vector<double> h = target_lengths(s, sizing, {}, 500, 0.25, parallel::Workers(1));
     const auto [least, most] = std::minmax_element(h.begin(), h.end());
     EXPECT_LT(*most / *least, 1.1);
     EXPECT_NEAR(vertices_for(s, h), 500, 1e-3);

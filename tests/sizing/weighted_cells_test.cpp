@@ -83,8 +83,8 @@ TEST(WeightedCells, OneSiteLikeTheClosedForm) {
 
 TEST(WeightedCells, PartsOfATriangleLikeASumOverAFineGrid) {
   const std::array<double, 3> rho{1, 4, 0.5};
-  const std::vector<rvd::CornerDistances> d{{0.1, 1.0, 0.9}, {0.8, 0.2, 1.1}, {0.9, 0.8, 0.1},
-                                            {0.5, 0.5, 0.6}};
+  const std::vector<rvd::CornerDistances> d{
+      {0.1, 1.0, 0.9}, {0.8, 0.2, 1.1}, {0.9, 0.8, 0.1}, {0.5, 0.5, 0.6}};
   std::vector<rvd::Moments> moments(d.size(), rvd::Moments{0, 0, 0}), rough = moments;
   rvd::FacetClipper clipper;
   clipper.clip(d, rho, moments);
