@@ -14,7 +14,7 @@ namespace {
 
 constexpr Index kSamplesPerVertex = 4;  // of the result
 constexpr Index kFewestSamples = 10'000;
-constexpr Index kMostSamples = 80'000;
+constexpr Index kMostSamples = 40'000;
 constexpr double kLeastFeature = 0.1;  // in mean edges
 
 }  // namespace
