@@ -102,6 +102,26 @@ Method parse_method(const std::string& text) {
   throw UsageError(fmt::format("--method must be default, cvt or cvt-nob, not '{}'", text));
 }
 
+// A file may be called like one of the words if its path says so: ./uniform.
+void set_sizing(const std::string& text, RemeshCommand& command) {
+  RemeshOptions& options = command.options;
+  if (text == "uniform") {
+    options.sizing = Sizing::Uniform;
+  } else if (text == "lfs") {
+    options.sizing = Sizing::LocalFeatureSize;
+  } else if (text == "curvature") {
+    options.sizing = Sizing::Curvature;
+  } else {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(text, error))
+      throw UsageError(fmt::format(
+          "--sizing must be uniform, lfs, curvature or a file of lengths, not '{}'", text));
+    options.sizing = Sizing::Given;
+    command.sizes = text;
+  }
+  if (!(options.gradation > 0)) throw UsageError("--gradation must be positive");
+}
+
 void add_output(CLI::App& command, OutputOptions& output) {
   command.add_option("-o,--output", output.path, "File to write: .obj, .off, .ply or .stl")
       ->required()
@@ -121,6 +141,7 @@ struct Draft {
   RemeshCommand remesh;
   std::string edge_length;
   std::string method = "default";
+  std::string sizing = "uniform";
   MeasureCommand measure;
   CertifyCommand certify;
   ConvertCommand convert;
@@ -144,6 +165,18 @@ void add_remesh(CLI::App& app, Draft& draft) {
                   "Instead of --vertices: target edge length, or 1% of the bounding-box diagonal")
       ->excludes(vertices)
       ->type_name("L");
+  command
+      .add_option("--sizing", draft.sizing,
+                  "How the edge length varies: uniform; lfs: finer at small features; curvature: "
+                  "finer where it bends; or a file with a target edge length per input vertex, one "
+                  "number a line")
+      ->type_name("uniform|lfs|curvature|FILE")
+      ->capture_default_str();
+  command
+      .add_option("--gradation", c.options.gradation,
+                  "How fast the target edge length may grow along the surface, per length")
+      ->type_name("G")
+      ->capture_default_str();
   command
       .add_option("--method", draft.method,
                   "default: CVT, then refinement on the mesh; cvt: CVT alone; cvt-nob: with the "
@@ -251,6 +284,7 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
     RemeshOptions& options = draft.remesh.options;
     set_edge_length(draft.edge_length, options);
     options.method = parse_method(draft.method);
+    set_sizing(draft.sizing, draft.remesh);
     check_bounds(options.min_angle, options.max_angle);
     if (options.min_angle >= 60) throw UsageError("--min-angle must be below 60");
     check_output(draft.remesh.output);

@@ -20,6 +20,7 @@ struct RemeshCommand {
   std::string input;
   OutputOptions output;
   RemeshOptions options;
+  std::string sizes;  ///< file of target edge lengths, with Sizing::Given
   int threads = 0;
   bool quiet = false;        ///< print nothing but errors
   bool progress = false;     ///< report progress even if stderr is no terminal

@@ -33,6 +33,20 @@ const char* name_of(Method method) {
   return "";
 }
 
+const char* name_of(Sizing sizing) {
+  switch (sizing) {
+    case Sizing::Uniform:
+      return "uniform";
+    case Sizing::LocalFeatureSize:
+      return "lfs";
+    case Sizing::Curvature:
+      return "curvature";
+    case Sizing::Given:
+      return "given";
+  }
+  return "";
+}
+
 }  // namespace
 
 Json to_json(const AngleQuality& angles) {
@@ -105,11 +119,19 @@ Json to_json(const std::vector<StageTime>& stages) {
   return list;
 }
 
+Json to_json(const SizeRatio& ratio) {
+  return {{"median", ratio.median},
+          {"percentile_5", ratio.percentile_5},
+          {"percentile_95", ratio.percentile_95}};
+}
+
 Json to_json(const RemeshOptions& options) {
   return {{"vertices", options.vertices},
           {"edge_length", options.edge_length},
           {"relative_edge_length", options.relative_edge_length},
           {"method", name_of(options.method)},
+          {"sizing", name_of(options.sizing)},
+          {"gradation", options.gradation},
           {"min_angle", options.min_angle},
           {"max_angle", options.max_angle},
           {"on_surface", options.on_surface},

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,21 @@ TriangleMesh read_clean(const std::string& path, std::vector<Repair>& repairs) {
   return std::move(cleaned.mesh);
 }
 
+// One positive number for each vertex, separated by white space.
+std::vector<double> read_lengths(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw IoError(path + ": cannot be opened.");
+  std::vector<double> lengths;
+  std::string word;
+  while (file >> word) {
+    char* end = nullptr;
+    lengths.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0')
+      throw IoError(fmt::format("{}: entry {}: '{}' is not a number.", path, lengths.size(), word));
+  }
+  return lengths;
+}
+
 RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMesh& input,
                                   const std::atomic<bool>& interrupted) {
   ProgressBar bar(progress_style(command.progress, command.quiet));
@@ -53,7 +70,10 @@ RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMe
     bar.show(progress);
     return true;
   };
-  return remesh(input, command.options, context);
+  if (command.sizes.empty()) return remesh(input, command.options, context);
+  RemeshOptions options = command.options;
+  options.target_lengths = read_lengths(command.sizes);
+  return remesh(input, options, context);
 }
 
 int exit_code_of(const Outcome& outcome) {
@@ -78,6 +98,7 @@ void print_json(const RemeshCommand& command, const Outcome& outcome, int code) 
             {"before_vertices", outcome.input.vertices.size()},
             {"after", to_json(measure_angles(outcome.written))},
             {"after_vertices", outcome.written.vertices.size()},
+            {"size_ratio", to_json(outcome.result.size_ratio)},
             {"goal", to_json(outcome.goal, outcome.written, kTrianglesNamed)},
             {"promise", to_json(outcome.promise, outcome.written, kTrianglesNamed)},
             {"seconds", outcome.seconds},
@@ -93,6 +114,9 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
                      outcome.distance};
   fmt::print("{}{}\n", repairs_text(command.input, outcome.repairs),
              quality_table({before, after}));
+  const SizeRatio& ratio = outcome.result.size_ratio;
+  fmt::print("edge length over target: median {:.3f}, 90 % of all in {:.3f} .. {:.3f}\n",
+             ratio.median, ratio.percentile_5, ratio.percentile_95);
   const std::string& path = command.output.path;
   fmt::print("{}", certificate_text(path, outcome.written, outcome.goal, kTrianglesNamed));
   // A goal that was missed may still leave the promise kept.

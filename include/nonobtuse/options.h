@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "nonobtuse/mesh.h"
 
@@ -14,6 +15,14 @@ enum class Method {
   CvtNob,   ///< CVT, valence optimisation, short-dual penalty (Yan & Wonka 2016, Eq. 3-4)
 };
 
+/// How the target edge length varies over the surface.
+enum class Sizing {
+  Uniform,
+  LocalFeatureSize,  ///< as lfs^(1/2): density 1/lfs^2, as in Yan & Wonka 2016
+  Curvature,         ///< as curvature^(-1/2): chords at the same distance from the surface
+  Given,             ///< `target_lengths`
+};
+
 struct RemeshOptions {
   /// Number of output vertices, exactly, at most 1e8; 0 = as many as the input has (unless
   /// edge_length is set).
@@ -23,6 +32,13 @@ struct RemeshOptions {
   /// The same relative to the diagonal of the input's bounding box; 0 = unset.
   double relative_edge_length = 0;
   Method method = Method::Default;
+  Sizing sizing = Sizing::Uniform;
+  /// Sizing::Given: the target edge length at every input vertex (#V, positive, input units).
+  /// Scaled to the number of vertices asked for; if none is, they themselves say how many.
+  std::vector<double> target_lengths = {};
+  /// Bound on the growth of the target edge length along the surface, per length: h(x) <= h(y) +
+  /// gradation |x - y|. > 0; infinite for no limit. Above 0.3 good angles get hard to reach.
+  double gradation = 0.25;
   /// Bounds to reach, degrees: 0 <= min_angle < 60 < max_angle. The promise is [30, 90).
   double min_angle = 40;
   double max_angle = 80;

@@ -22,12 +22,22 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// How the edges of the result realise the target edge lengths: actual length over target (the mean
+/// of that at both ends), over all edges. The target of a uniform mesh is the edge of a regular
+/// triangulation with as many vertices.
+struct SizeRatio {
+  double median = 0;
+  double percentile_5 = 0;
+  double percentile_95 = 0;
+};
+
 struct RemeshResult {
   TriangleMesh mesh;  ///< exactly the vertices asked for; topology of the input
   Status status = Status::AnglesRemain;
   Certificate certificate;  ///< against the promise [30, 90)
   Certificate goal;         ///< against the bounds of the options
   AngleQuality angles;
+  SizeRatio size_ratio;
   std::vector<Index> source_triangle;  ///< #V: triangle of the (cleaned) input nearest to a vertex
   std::vector<Vec3> barycentric;       ///< #V by 3: the nearest point's coordinates in it
   std::vector<StageTime> stages;       ///< in the order they ran; a stage may occur once

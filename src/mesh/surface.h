@@ -26,6 +26,16 @@ struct Surface {
   std::vector<double> areas;                   ///< #F
   std::vector<Vec3> normals;                   ///< #F by 3, unit; zero for a facet without area
   double area = 0;                             ///< sum of areas, added in order
+  /// #V: target edge length relative to that of a uniform mesh, linear on facets, scaled so that
+  /// the integral of 1/size^2 is the area; empty for a uniform mesh. The density is size^-4.
+  std::vector<double> size;
+
+  /// The relative size at a point of a facet; 1 if uniform.
+  [[nodiscard]] double size_at(Index facet, const Vec3& barycentric) const {
+    if (size.empty()) return 1;
+    const Triangle& t = triangles[facet];
+    return barycentric.x * size[t[0]] + barycentric.y * size[t[1]] + barycentric.z * size[t[2]];
+  }
 };
 
 /// Input coordinates = origin + working coordinates / scale.

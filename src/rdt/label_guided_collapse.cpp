@@ -45,7 +45,7 @@ class GuidedCollapse {
   }
 
  private:
-  // Bisects edges, longest first, until none is longer than `bound`.
+  // Bisects edges, longest first, until none is longer than `bound` (times the local size).
   void refine(double bound) {
     struct Long {
       double squared;
@@ -55,9 +55,11 @@ class GuidedCollapse {
       }
     };
     std::priority_queue<Long> queue;
+    std::vector<double> size = surface_.size;  // grows with the splits; empty if uniform
     const auto push = [&](Index a, Index b) {
       const double squared = squared_distance(mesh_.positions[a], mesh_.positions[b]);
-      if (squared > bound * bound) queue.push({squared, a, b});
+      const double local = size.empty() ? bound : bound * std::min(size[a], size[b]);
+      if (squared > local * local) queue.push({squared, a, b});
     };
     for (Index t = 0; t < mesh_.triangle_capacity(); ++t)
       for (int k = 0; k < 3; ++k)
@@ -69,6 +71,7 @@ class GuidedCollapse {
       const Edge e = mesh_.find_edge(a, b);
       const Edge o = mesh_.twin(e);
       const Index m = mesh_.split_edge(e, 0.5 * (mesh_.positions[a] + mesh_.positions[b]));
+      if (!size.empty()) size.push_back(0.5 * (size[a] + size[b]));
       facet_.push_back(facet_[e.triangle]);
       if (o.valid()) facet_.push_back(facet_[o.triangle]);
       mesh_.neighbors(m, ring);

@@ -31,7 +31,8 @@ class Reducer {
   Reducer(const mesh::Surface& surface, EditableMesh& mesh, const std::vector<Index>& foot)
       : surface_(surface), mesh_(mesh), foot_(foot) {}
 
-  // One pass over the edges by length; returns the number of collapses.
+  // One pass over the edges by length (relative to the local size); returns the number of
+  // collapses.
   Index pass(Index count, Guard guard) {
     struct Candidate {
       double length2;
@@ -43,7 +44,7 @@ class Reducer {
       for (int k = 0; k < 3; ++k) {
         const Index a = mesh_.tail({t, k});
         const Index b = mesh_.head({t, k});
-        const double l = squared_distance(mesh_.positions[a], mesh_.positions[b]);
+        const double l = squared_distance(mesh_.positions[a], mesh_.positions[b]) / squared_size(a);
         all.push_back({l, a, b});
         if (mesh_.adjacent(t, k) < 0) all.push_back({l, b, a});
       }
@@ -69,6 +70,12 @@ class Reducer {
   }
 
  private:
+  [[nodiscard]] double squared_size(Index v) const {
+    if (surface_.size.empty()) return 1;
+    const double s = surface_.size_at(foot_[v], {1.0 / 3, 1.0 / 3, 1.0 / 3});
+    return s * s;
+  }
+
   bool allowed(Index removed, Index kept, Guard guard) {
     if (guard == Guard::None) return true;
     mesh_.triangles_around(removed, ring_);

@@ -80,10 +80,28 @@ TriangleFrame triangle_frame(const mesh::EditableMesh& mesh, Index t) {
 std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count) {
   std::vector<Sample> samples;
   samples.reserve(count);
-  const double step = surface.area / count;
+  const bool uniform = surface.size.empty();
+  // Sites per area at a facet: the mean of 1/size^2.
+  const auto share = [&](Index f) {
+    if (uniform) return surface.areas[f];
+    double sum = 0;
+    for (const Index v : surface.triangles[f]) sum += 1 / (surface.size[v] * surface.size[v]);
+    return surface.areas[f] * sum / 3;
+  };
+  double total = surface.area;
+  if (!uniform) {
+    total = 0;
+    for (Index f = 0; f < static_cast<Index>(surface.triangles.size()); ++f) total += share(f);
+  }
+  const double step = total / count;
+  const auto weight = [&](Index f, double b1, double b2) {
+    if (uniform) return step;
+    const double size = surface.size_at(f, {1 - b1 - b2, b1, b2});
+    return step * size * size * TargetSize::fidelity_factor(size * size);
+  };
   double passed = 0;
   for (Index f = 0; f < static_cast<Index>(surface.triangles.size()); ++f) {
-    passed += surface.areas[f];
+    passed += share(f);
     // Inside a facet a low-discrepancy sequence (Roberts 2018), shifted by the facet's stream.
     numeric::Random random(0x5a3b1e, f);
     double s = random.uniform(), t = random.uniform();
@@ -93,7 +111,8 @@ std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count) {
       if (s >= 1) s -= 1;
       if (t >= 1) t -= 1;
       const bool beyond = s + t > 1;
-      samples.push_back({facet_point(surface, f, beyond ? 1 - s : s, beyond ? 1 - t : t), step, f});
+      const double b1 = beyond ? 1 - s : s, b2 = beyond ? 1 - t : t;
+      samples.push_back({facet_point(surface, f, b1, b2), weight(f, b1, b2), f});
     }
   }
   return samples;
@@ -118,7 +137,8 @@ void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Wo
       return dot(area_vector(corners(mesh, old[t])), normal) >= 0;
     };
     // Beyond two edge lengths, agreement is worth less than nearness.
-    auto hit = bvh.closest_if(samples[s].point, 4.0, agrees);
+    const double local = surface().size_at(samples[s].facet, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+    auto hit = bvh.closest_if(samples[s].point, 4.0 * local * local, agrees);
     if (hit.triangle < 0) hit = bvh.closest(samples[s].point);
     found[s] = old[hit.triangle];
   });
@@ -203,7 +223,9 @@ Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double fa
       for (Index v : surface().triangles[sample.facet]) {
         if (start[v] != -1) continue;
         start[v] = t;
-        candidates.push_back({surface().vertices[v], weight, sample.facet, v});
+        const double area = surface().size.empty() ? 1 : surface().size[v] * surface().size[v];
+        candidates.push_back({surface().vertices[v],
+                              weight * area * TargetSize::fidelity_factor(area), sample.facet, v});
         nearest.push_back(t);
       }
     }
@@ -262,7 +284,7 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
       if (!mesh.alive_triangle(t)) continue;
       const std::array<Vec3, 3> p = corners(mesh, t);
       double d = TriangleFrame(p[0], p[1], p[2]).closest(samples[s].point).squared_distance;
-      if (dot(area_vector(p), normal) < 0) d += 4;
+      if (dot(area_vector(p), normal) < 0) d += 4 * size.area(mesh.triangle(t));
       if (d < least) least = d, best = t;
     }
     samples[s].next = first[best];
@@ -282,9 +304,9 @@ TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const
   return result;
 }
 
-TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal) const {
+TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal, double reach) const {
   const auto agrees = [&](Index f) { return dot(surface().normals[f], normal) >= 0; };
-  auto hit = surface_bvh_->closest_if(p, 4.0, agrees);
+  auto hit = surface_bvh_->closest_if(p, reach * reach, agrees);
   if (hit.triangle < 0) hit = surface_bvh_->closest(p);
   return plane(p, hit.point, hit.triangle);
 }
@@ -310,21 +332,24 @@ void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool searc
     weight += length(a) / 24;
   });
   vertex_weights[v] = plane.emphasis * weight;
-  plane.move_to(search || plane.facet < 0 ? search_foot(mesh.positions[v], normal)
+  if (!size.uniform()) vertex_weights[v] *= TargetSize::fidelity_factor(size.at(v) * size.at(v));
+  plane.move_to(search || plane.facet < 0 ? search_foot(mesh.positions[v], normal, 2 * size.at(v))
                                           : walk_foot(mesh.positions[v], plane.facet));
 }
 
 void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool search) {
   const std::array<Vec3, 3> p = corners(mesh, t);
   const Vec3 normal = area_vector(p);
+  const double area = size.area(mesh.triangle(t));
   edge_weights[t] = 0.125 * length(normal);
+  if (!size.uniform()) edge_weights[t] *= TargetSize::fidelity_factor(area);
   for (int k = 0; k < 3; ++k) {
     TangentPlane& plane = edge_planes[t][k];
     const Vec3 middle = midpoint(p, k);
     const bool known = plane.facet >= 0 && !search;
     if (known) plane.move_to(walk_foot(middle, plane.facet));
     if (!known || dot(surface().normals[plane.facet], normal) < 0)
-      plane.move_to(search_foot(middle, normal));
+      plane.move_to(search_foot(middle, normal, 2 * std::sqrt(area)));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "mesh/editable_mesh.h"
 #include "mesh/surface.h"
 #include "parallel/workers.h"
+#include "refine/target_size.h"
 #include "refine/triangle_frame.h"
 #include "spatial/triangle_bvh.h"
 
@@ -51,8 +52,8 @@ struct FidelityWeights {
   double to_surface = 10;  ///< T -> M
 };
 
-/// `count` samples of M, uniform by area, in the order of the facets; each stands for the same
-/// area. Deterministic.
+/// `count` samples of M, uniform by area (with sizing: by the density of sites), in the order of
+/// the facets; each stands for the same share of it. Deterministic.
 std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count);
 
 class Fidelity {
@@ -65,6 +66,7 @@ class Fidelity {
   [[nodiscard]] const spatial::TriangleBvh& surface_bvh() const { return *surface_bvh_; }
 
   FidelityWeights weights;
+  TargetSize size;  ///< frozen; before samples and planes
   std::vector<Sample> samples;
   std::vector<Index> first;                 ///< #T, head of each triangle's list of samples
   std::vector<TangentPlane> vertex_planes;  ///< #V
@@ -104,8 +106,9 @@ class Fidelity {
   /// Mean squared distance of the samples, by weight.
   [[nodiscard]] double mean_square(const mesh::EditableMesh& mesh) const;
 
-  /// Foot of p on M on the side that `normal` looks to, by search.
-  [[nodiscard]] TangentPlane search_foot(const Vec3& p, const Vec3& normal) const;
+  /// Foot of p on M on the side that `normal` looks to, by search within `reach`, if there
+  /// is such a side; else the nearest point.
+  [[nodiscard]] TangentPlane search_foot(const Vec3& p, const Vec3& normal, double reach) const;
   /// Foot of p on M by walking over the facets from `facet`.
   [[nodiscard]] TangentPlane walk_foot(const Vec3& p, Index facet) const;
 

@@ -12,10 +12,6 @@ constexpr double kLongestDiagonal = 2.25;  // squared
 
 using Corners = std::array<Vec3, 3>;
 
-double shape_of(const Corners& p, const energy::ShapeWeights& shape) {
-  return energy::triangle_shape(energy::squared_edges(p[0], p[1], p[2]), shape);
-}
-
 // Energy of the samples of two triangles against the nearer of another two (or the same).
 double samples_against(const Fidelity& fidelity, Index t, const TriangleFrame& a,
                        const TriangleFrame& b) {
@@ -32,12 +28,15 @@ double samples_against(const Fidelity& fidelity, Index t, const TriangleFrame& a
 double flip_gain(const mesh::EditableMesh& mesh, const Fidelity& fidelity,
                  const energy::ShapeWeights& shape, mesh::Edge e) {
   const mesh::Edge o = mesh.twin(e);
-  const Vec3 p = mesh.positions[mesh.opposite_vertex(e)],
-             q = mesh.positions[mesh.opposite_vertex(o)];
-  const Vec3 a = mesh.positions[mesh.tail(e)], b = mesh.positions[mesh.head(e)];
+  const Index vp = mesh.opposite_vertex(e), vq = mesh.opposite_vertex(o);
+  const Index va = mesh.tail(e), vb = mesh.head(e);
+  const Vec3 p = mesh.positions[vp], q = mesh.positions[vq];
+  const Vec3 a = mesh.positions[va], b = mesh.positions[vb];
   const Corners old1{p, a, b}, old2{q, b, a}, new1{p, a, q}, new2{q, b, p};
-  const double gain =
-      shape_of(old1, shape) + shape_of(old2, shape) - shape_of(new1, shape) - shape_of(new2, shape);
+  const TargetSize& size = fidelity.size;
+  const double gain = size.shape({vp, va, vb}, old1, shape) +
+                      size.shape({vq, vb, va}, old2, shape) -
+                      size.shape({vp, va, vq}, new1, shape) - size.shape({vq, vb, vp}, new2, shape);
   // Fidelity alone may pay for a flip, but not for a much worse shape.
   if (!(gain > -1)) return gain;
   const TriangleFrame f1(p, a, b), f2(q, b, a), g1(p, a, q), g2(q, b, p);

@@ -8,7 +8,7 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr std::size_t kChunk = 512;
-constexpr double kLongestStep = 0.3;  // of a vertex, where the ideal edge is 1.07 long
+constexpr double kLongestStep = 0.3;  // of a vertex of size 1, where the ideal edge is 1.07 long
 constexpr int kHalvings = 6;
 
 // Tangential stiffness of a triangle's shape energy.
@@ -52,7 +52,12 @@ void GlobalDescent::freeze() {
   workers_.for_each(triangles, kChunk, [&](std::size_t i) {
     const Index t = static_cast<Index>(i);
     const std::array<Vec3, 3> p = corners(mesh_, t);
-    const double stiffness = shape_stiffness(p, shape);
+    const double area = fidelity_.size.area(mesh_.triangle(t));
+    const double unit = std::sqrt(area);
+    const double stiffness =
+        fidelity_.size.uniform()
+            ? shape_stiffness(p, shape)
+            : shape_stiffness({p[0] / unit, p[1] / unit, p[2] / unit}, shape) / area;
     std::array<double, 3> pull{0, 0, 0};
     const TriangleFrame frame(p[0], p[1], p[2]);
     for (Index s = fidelity_.first[t]; s >= 0; s = fidelity_.samples[s].next) {
@@ -82,7 +87,7 @@ double GlobalDescent::evaluate(std::vector<Vec3>& gradient) {
         for (std::size_t i = begin; i < end; ++i) {
           const Index t = static_cast<Index>(i);
           const std::array<Vec3, 3> p = corners(mesh_, t);
-          sum += energy::triangle_shape(p[0], p[1], p[2], shape, corner_gradient_[i]);
+          sum += fidelity_.size.shape(mesh_.triangle(t), p, shape, corner_gradient_[i]);
           sum += fidelity_.triangle(t, p, &corner_gradient_[i]);
         }
         return sum;
@@ -148,8 +153,8 @@ void GlobalDescent::run(int iterations, const std::function<bool()>& keep_going)
       const double l = length(direction[v]);
       if (fixed_[v])
         direction[v] = {};
-      else if (l > kLongestStep)
-        direction[v] *= kLongestStep / l;
+      else if (l > kLongestStep * fidelity_.size.at(static_cast<Index>(v)))
+        direction[v] *= kLongestStep * fidelity_.size.at(static_cast<Index>(v)) / l;
     }
     origin_ = mesh_.positions;
     const double slope = optimize::dot(direction, gradient_, workers_);

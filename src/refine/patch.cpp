@@ -114,6 +114,7 @@ Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit)
   if (made >= 0) {
     fidelity.vertex_planes.emplace_back();
     fidelity.vertex_weights.push_back(0);
+    fidelity.size.add_between(edit.a, edit.b);
     fidelity.update_vertex(mesh, made);
   }
   for (Index t : concerned)
@@ -182,6 +183,8 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
     const Index v = vertex[i];
     fidelity.vertex_planes.push_back(whole_fidelity.vertex_planes[v]);
     fidelity.vertex_weights.push_back(whole_fidelity.vertex_weights[v]);
+    if (!whole_fidelity.size.uniform())
+      fidelity.size.of_vertex.push_back(whole_fidelity.size.at(v));
     hidden_.push_back(whole.valence(v) - mesh.valence(static_cast<Index>(i)));
     boundary_.push_back(whole.on_boundary(v));
     inner_.push_back(std::binary_search(core.begin(), core.end(), v));
@@ -249,8 +252,8 @@ PatchScore Patch::score(const energy::ShapeWeights& shape, const AngleTest& prom
     score.folded += is_folded(mesh, fidelity, t);
     score.outside_promise += !promise.inside(p[0], p[1], p[2]);
     score.outside_goal += !goal.inside(p[0], p[1], p[2]);
-    score.energy += energy::triangle_shape(energy::squared_edges(p[0], p[1], p[2]), shape) +
-                    fidelity.triangle(t, p, nullptr);
+    score.energy +=
+        fidelity.size.shape(mesh.triangle(t), p, shape) + fidelity.triangle(t, p, nullptr);
   }
   for (Index v = 0; v < mesh.vertex_capacity(); ++v)
     if (mesh.alive_vertex(v)) score.energy += fidelity.vertex(v, mesh.positions[v], nullptr);

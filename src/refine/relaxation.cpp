@@ -10,8 +10,10 @@ namespace {
 
 using Matrix = std::array<Vec3, 3>;  // columns
 
-constexpr double kDifference = 1e-5;  // in units of about an edge length
+// In units of about an edge length.
+constexpr double kDifference = 1e-5;
 constexpr double kLongestStep = 0.25;
+constexpr double kShortestStep = 1e-9;
 
 // Solves (H + damping) x = b by Cholesky; false if that is not positive definite.
 bool solve(const Matrix& h, double damping, const Vec3& b, Vec3& x) {
@@ -54,12 +56,12 @@ struct RingSolver {
 
   [[nodiscard]] Matrix hessian(Index v, const Vec3& p, const Vec3& gradient) const {
     Matrix h;
-    const std::array<Vec3, 3> axes{Vec3{kDifference, 0, 0}, Vec3{0, kDifference, 0},
-                                   Vec3{0, 0, kDifference}};
+    const double step = kDifference * fidelity.size.at(v);
+    const std::array<Vec3, 3> axes{Vec3{step, 0, 0}, Vec3{0, step, 0}, Vec3{0, 0, step}};
     for (int i = 0; i < 3; ++i) {
       Vec3 g;
       energy(v, p + axes[i], &g);
-      h[i] = (g - gradient) / kDifference;
+      h[i] = (g - gradient) / step;
     }
     return symmetrized(h);
   }
@@ -106,8 +108,9 @@ struct RingSolver {
       if (!solve(h, damping, -g, d)) continue;
       if (options.on_surface) d = tangent(v, d);
       const double l = length(d);
-      if (!(l > 1e-9)) return;
-      if (l > kLongestStep) d *= kLongestStep / l;
+      const double local = fidelity.size.at(v);
+      if (!(l > kShortestStep * local)) return;
+      if (l > kLongestStep * local) d *= kLongestStep * local / l;
       Vec3 to = p + d;
       if (options.on_surface) to = fidelity.walk_foot(to, fidelity.vertex_planes[v].facet).point;
       if (energy(v, to, nullptr) < before) {
@@ -153,11 +156,11 @@ double ring_energy(const mesh::EditableMesh& mesh, const Fidelity& fidelity,
     c[k] = p;
     if (gradient) {
       std::array<Vec3, 3> g;
-      sum += energy::triangle_shape(c[0], c[1], c[2], shape, g);
+      sum += fidelity.size.shape(mesh.triangle(t), c, shape, g);
       sum += fidelity.triangle(t, c, &g);
       *gradient += g[k];
     } else {
-      sum += energy::triangle_shape(energy::squared_edges(c[0], c[1], c[2]), shape);
+      sum += fidelity.size.shape(mesh.triangle(t), c, shape);
       sum += fidelity.triangle(t, c, nullptr);
     }
   });

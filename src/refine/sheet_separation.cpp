@@ -3,6 +3,7 @@
 #include "refine/sheet_separation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "refine/neighborhood.h"
 #include "refine/relaxation.h"
@@ -12,7 +13,7 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr int kRounds = 8;
-constexpr double kPush = 0.04;  // outwards per round, where an ideal edge is 1.07 long
+constexpr double kPush = 0.04;  // outwards per round, where the size is 1
 constexpr double kEmphasis = 2;
 
 using Corners = std::array<Vec3, 3>;
@@ -87,11 +88,12 @@ Index separate_sheets(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialO
     for (const auto& [a, b] : pairs) places.push_back(a), places.push_back(b);
     sort_unique(places);
     for (Index t : places) {
-      for (TangentPlane& plane : fidelity.edge_planes[t]) plane.push_out(kPush, kEmphasis);
+      for (TangentPlane& plane : fidelity.edge_planes[t])
+        plane.push_out(kPush * std::sqrt(fidelity.size.area(mesh.triangle(t))), kEmphasis);
       fidelity.update_triangle(mesh, t);
     }
     for (Index v : dilated(mesh, places, 0)) {
-      fidelity.vertex_planes[v].push_out(kPush, kEmphasis);
+      fidelity.vertex_planes[v].push_out(kPush * fidelity.size.at(v), kEmphasis);
       fidelity.update_vertex(mesh, v);
     }
     const std::vector<Index> active = dilated(mesh, places, 2);

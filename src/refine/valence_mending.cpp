@@ -73,7 +73,7 @@ class Mender {
 };
 
 // Vertices by how crowded (net < 0) or roomy (net > 0) their ring is, the best places first.
-std::vector<Index> places(const mesh::EditableMesh& mesh, int net) {
+std::vector<Index> places(const mesh::EditableMesh& mesh, const Fidelity& fidelity, int net) {
   std::vector<std::pair<double, Index>> ranked;
   for (Index v = 0; v < mesh.vertex_capacity(); ++v) {
     if (!mesh.alive_vertex(v) || mesh.on_boundary(v)) continue;
@@ -87,6 +87,7 @@ std::vector<Index> places(const mesh::EditableMesh& mesh, int net) {
       sum += a;
     });
     if (length(sum) < kFlat * area) continue;  // a tip or ridge: every vertex counts there
+    area /= fidelity.size.at(v) * fidelity.size.at(v);
     ranked.emplace_back(net < 0 ? area : -area, v);
   }
   const std::size_t count = std::min<std::size_t>(ranked.size(), kPlaces);
@@ -128,7 +129,7 @@ void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index cen
 
 bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
                    const TrialOptions& options, const parallel::Workers& workers) {
-  for (Index v : places(mesh, net)) {
+  for (Index v : places(mesh, fidelity, net)) {
     ensure_planes(mesh, fidelity, v, 4);
     const std::array<Index, 1> center{v};
     const Patch patch(mesh, fidelity, center, 3);

@@ -41,11 +41,19 @@ std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>
 }
 
 // The inverse of the Hessian's part that keeps the cells fixed, diag(2 m_i): Lloyd's step. Cells
-// that are nearly empty count as a hundredth of the mean, since their mass says nothing.
+// that are nearly empty count as a hundredth of the mean (with sizing: of what a cell of the right
+// size has there), since their mass says nothing.
 void divide_by_mass(const rvd::CellIntegrals& cells, std::span<const Vec3> in, std::span<Vec3> out,
                     const parallel::Workers& workers) {
   const double total = std::accumulate(cells.mass.begin(), cells.mass.end(), 0.0);
   const double least = 0.01 * total / static_cast<double>(cells.mass.size());
+  if (!cells.expected_mass.empty()) {
+    workers.for_each(in.size(), kChunk, [&](std::size_t i) {
+      const double expected = cells.expected_mass[i] > 0 ? cells.expected_mass[i] : 100 * least;
+      out[i] = in[i] / (2 * std::max(cells.mass[i], 0.01 * expected));
+    });
+    return;
+  }
   workers.for_each(in.size(), kChunk,
                    [&](std::size_t i) { out[i] = in[i] / (2 * std::max(cells.mass[i], least)); });
 }

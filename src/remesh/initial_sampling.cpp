@@ -123,6 +123,13 @@ SampledSites sample_strata(const mesh::Surface& surface, const Components& compo
   result.component.reserve(total);
   std::vector<Index> drawn(components.count(), 0);
   std::vector<double> passed(components.count(), 0);
+  // With sizing, strata hold equal integrals of rho^(1/2) instead of equal areas.
+  std::vector<double> whole = components.area;
+  if (!pieces.uniform()) {
+    whole.assign(components.count(), 0);
+    for (Index p = 0; p < pieces.count(); ++p)
+      whole[components.of_triangle[pieces.facet[p]]] += rvd::sites_of(pieces, p);
+  }
   std::vector<double> target(components.count());
   std::vector<Index> last(components.count(), -1);  // last piece with area
   // Stream of random numbers: component and sample, so that no sample depends on another.
@@ -130,8 +137,7 @@ SampledSites sample_strata(const mesh::Surface& surface, const Components& compo
     return numeric::Random(seed, (static_cast<std::uint64_t>(c) << 32) + drawn[c]);
   };
   const auto next_target = [&](Index c) {
-    target[c] =
-        (drawn[c] + stream(c).uniform()) / std::max<Index>(quota[c], 1) * components.area[c];
+    target[c] = (drawn[c] + stream(c).uniform()) / std::max<Index>(quota[c], 1) * whole[c];
   };
   const auto draw = [&](Index c, Index piece) {
     numeric::Random random = stream(c);
@@ -151,7 +157,7 @@ SampledSites sample_strata(const mesh::Surface& surface, const Components& compo
   for (Index c = 0; c < components.count(); ++c) next_target(c);
   for (Index p = 0; p < pieces.count(); ++p) {
     const Index c = components.of_triangle[pieces.facet[p]];
-    passed[c] += pieces.area[p];
+    passed[c] += rvd::sites_of(pieces, p);
     if (pieces.area[p] > 0 || last[c] < 0) last[c] = p;
     while (drawn[c] < quota[c] && target[c] <= passed[c]) draw(c, p);
   }

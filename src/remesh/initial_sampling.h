@@ -31,8 +31,9 @@ struct SampledSites {
   std::vector<Index> component;  ///< #X
 };
 
-/// quota[c] points on component c: its area, taken along the curve, is cut into quota[c] equal
-/// strata with one uniformly distributed point in each. Same seed, same points.
+/// quota[c] points on component c: its area (with sizes: the integral of rho^(1/2), the density of
+/// sites), taken along the curve, is cut into quota[c] equal strata with one uniformly distributed
+/// point in each. Same seed, same points.
 SampledSites sample_strata(const mesh::Surface& surface, const Components& components,
                            const std::vector<Index>& quota, std::uint64_t seed);
 

@@ -66,13 +66,13 @@ std::vector<Vec3> farthest_points(const mesh::Surface& surface, const std::vecto
   return points;
 }
 
-// Sites by the mass of their cells, least first.
+// Sites by the size of their cells (with sizing: relative to the target), least first.
 std::vector<Index> by_mass(const rvd::CellSums& sums) {
-  std::vector<Index> order(sums.mass.size());
+  const std::vector<double>& mass = sums.sites.empty() ? sums.mass : sums.sites;
+  std::vector<Index> order(mass.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return std::tie(sums.mass[a], a) < std::tie(sums.mass[b], b);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return std::tie(mass[a], a) < std::tie(mass[b], b); });
   return order;
 }
 
@@ -99,7 +99,13 @@ void relocate(const mesh::Surface& surface, const SiteCells& cells, const rvd::C
   for (const rdt::DefectiveCell& d : cells.defects) defective.push_back(d.site);
   const std::vector<Vec3> targets = farthest_points(surface, sites, cells, defective);
   std::vector<char> busy(sites.size(), 0);
-  for (const rdt::DefectiveCell& d : cells.defects) busy[d.site] = 1;
+  std::vector<double> crowding;  // squared distance; the spacing is about the local size
+  for (const rdt::DefectiveCell& d : cells.defects) {
+    busy[d.site] = 1;
+    const Index foot = cells.feet[d.site];
+    const double size = foot < 0 ? 1 : surface.size_at(foot, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+    crowding.push_back(0.25 * size * size);
+  }
   for (const Triangle& t : cells.triangles)
     if (std::any_of(t.begin(), t.end(), [&](Index v) { return busy[v] == 1; }))
       for (const Index v : t) busy[v] = std::max<char>(busy[v], 2);
@@ -109,7 +115,7 @@ void relocate(const mesh::Surface& surface, const SiteCells& cells, const rvd::C
   const std::size_t count = std::min(order.size(), order.size() / 20 + 1);
   for (std::size_t k = 0, d = 0; k < count && d < targets.size(); ++d) {
     const bool crowded = std::any_of(targets.begin(), targets.begin() + d, [&](const Vec3& p) {
-      return squared_distance(p, targets[d]) < 0.25;  // spacing is about 1
+      return squared_distance(p, targets[d]) < crowding[d];
     });
     if (!crowded) sites[order[k++]] = targets[d];
   }

@@ -7,6 +7,7 @@
 #include "mesh/surface.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/normalization.h"
+#include "sizing/density.h"
 
 namespace nonobtuse::pipeline {
 
@@ -17,15 +18,12 @@ Index least_vertices(Index euler, bool open) {
   return static_cast<Index>(std::ceil((7 + std::sqrt(49.0 - 24.0 * euler)) / 2));
 }
 
-// Areas and Euler characteristics in coordinates that can neither over- nor underflow.
-Components components_of(const TriangleMesh& mesh) {
-  return connected_components(normalize(mesh, 1).surface);
-}
-
 }  // namespace
 
-std::vector<Part> connected_parts(const TriangleMesh& mesh) {
-  const Components components = components_of(mesh);
+std::vector<Part> connected_parts(const TriangleMesh& mesh, std::span<const double> length) {
+  // Areas and Euler characteristics in coordinates that can neither over- nor underflow.
+  const NormalizedInput whole = normalize(mesh, 1);
+  const Components components = connected_components(whole.surface);
   std::vector<Part> parts(components.count());
   for (Index c = 0; c < components.count(); ++c) {
     parts[c].area = components.area[c];
@@ -33,8 +31,11 @@ std::vector<Part> connected_parts(const TriangleMesh& mesh) {
   }
   for (Index t = 0; t < static_cast<Index>(mesh.triangles.size()); ++t)
     parts[components.of_triangle[t]].facet.push_back(t);
+  if (!length.empty())
+    for (Part& part : parts) part.area = sizing::vertices_for(whole.surface, length, part.facet);
   if (parts.size() == 1) {
     parts.front().mesh = mesh;
+    parts.front().length.assign(length.begin(), length.end());
     return parts;
   }
   std::vector<Index> owner(mesh.vertices.size(), -1);
@@ -45,6 +46,7 @@ std::vector<Part> connected_parts(const TriangleMesh& mesh) {
     std::vector<Vec3>& vertices = parts[owner[v]].mesh.vertices;
     number[v] = static_cast<Index>(vertices.size());
     vertices.push_back(mesh.vertices[v]);
+    if (!length.empty()) parts[owner[v]].length.push_back(length[v]);
   }
   for (Part& part : parts) {
     for (const Index t : part.facet) {

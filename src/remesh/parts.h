@@ -3,6 +3,7 @@
 // (localized cells between components, by construction).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "nonobtuse/mesh.h"
@@ -13,18 +14,20 @@ struct Part {
   TriangleMesh mesh;
   std::vector<Index> facet;  ///< #F of the part: its triangle in the whole mesh
   double area = 0;
+  std::vector<double> length;  ///< #V: target edge lengths, input units; empty if uniform
   Index least = 4;  ///< vertices to give it at least: first what any surface of its topology needs
                     ///< (Heawood; 3 for a disc), then what was found to do
 };
 
 /// By lowest triangle index. The order of vertices and triangles is kept. The mesh must be clean.
-std::vector<Part> connected_parts(const TriangleMesh& mesh);
+/// With target edge lengths (#V, else empty) `area` is the number of vertices they ask for.
+std::vector<Part> connected_parts(const TriangleMesh& mesh, std::span<const double> length = {});
 
 /// Sum of `least` over the parts.
 Index least_vertices(const std::vector<Part>& parts);
 
-/// n vertices shared out in proportion to area, at least `least` for each part; n must not be
-/// smaller than their sum.
+/// n vertices shared out in proportion to area (with sizing to the vertices asked for), at least
+/// `least` for each part; n must not be smaller than their sum.
 std::vector<Index> share_vertices(const std::vector<Part>& parts, Index n);
 
 }  // namespace nonobtuse::pipeline

@@ -27,6 +27,7 @@ constexpr double kMostFidelity = 40;
 // Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
 constexpr double kMeanQuality = 0.9465;
 constexpr double kMeanQualityLarge = 0.9425;
+constexpr double kMeanQualitySized = 0.939;  // gradation costs shape
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
@@ -45,6 +46,7 @@ class Refinement {
         descent_(mesh, fidelity_, options.on_surface, workers) {
     fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
+    if (!surface.size.empty()) fidelity_.size.measure(mesh);
     fidelity_.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
     fidelity_.search_samples(mesh, workers);
     fidelity_.update_planes(mesh, workers);
@@ -90,7 +92,9 @@ class Refinement {
   // Fidelity is bought with shape, not with the angle bounds: on a smooth surface there is shape to
   // spare, on a rough one there is not.
   void adapt_weights() {
-    const double aim = mesh_.vertex_count() > 10000 ? kMeanQualityLarge : kMeanQuality;
+    const double aim = !fidelity_.size.uniform()      ? kMeanQualitySized
+                       : mesh_.vertex_count() > 10000 ? kMeanQualityLarge
+                                                      : kMeanQuality;
     const double excess = refine::mean_quality(mesh_) - aim;
     // exp(x) in Pade's form: libm's own bits differ from system to system.
     const double x = std::clamp(150 * excess, -3.0, 3.0);

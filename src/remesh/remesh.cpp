@@ -20,6 +20,7 @@
 #include "remesh/parts.h"
 #include "remesh/refinement.h"
 #include "remesh/request.h"
+#include "remesh/size_field.h"
 #include "remesh/stage_clock.h"
 #include "remesh/valence_optimization.h"
 
@@ -76,7 +77,8 @@ bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& 
     clock.begin_part(done, done + share);
     done += share;
     try {
-      const pipeline::NormalizedInput input = pipeline::normalize(parts[c].mesh, vertices[c]);
+      pipeline::NormalizedInput input = pipeline::normalize(parts[c].mesh, vertices[c]);
+      pipeline::set_sizes(parts[c].length, input);
       const mesh::EditableMesh mesh =
           remesh_part(input.surface, vertices[c], options, workers, clock);
       if (complete) pipeline::append_part(parts[c], input, mesh, workers, result);
@@ -94,7 +96,8 @@ void find_least_vertices(std::vector<pipeline::Part>& parts, const RemeshOptions
   for (pipeline::Part& part : parts) {
     for (bool enough = false; !enough;) {
       try {
-        const pipeline::NormalizedInput input = pipeline::normalize(part.mesh, part.least);
+        pipeline::NormalizedInput input = pipeline::normalize(part.mesh, part.least);
+        pipeline::set_sizes(part.length, input);
         sites_and_mesh(input.surface, part.least, options, workers, clock);
         enough = true;
       } catch (const TooFewVertices& too_few) {
@@ -120,29 +123,34 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
                     const Context& context) {
   pipeline::check_options(options);
   pipeline::check_input(input);
-  const Index n = pipeline::vertex_budget(input, options);
   const parallel::Workers workers(context.threads);
   parallel::Monitor monitor(context);
   std::vector<StageTime> stages;
   pipeline::StageClock clock(monitor, stages);
+  pipeline::SizeField field{{}, pipeline::vertex_budget(input, options)};
+  if (options.sizing != Sizing::Uniform)
+    field = clock.run("sizing", 0, 0.01, [&] {
+      return pipeline::size_field(input, options, field.vertices, workers);
+    });
 
   // Parts that turn out to need more vertices take them from the others, until all have enough or
   // there are no more to take.
-  std::vector<pipeline::Part> parts = pipeline::connected_parts(input);
+  std::vector<pipeline::Part> parts = pipeline::connected_parts(input, field.length);
   RemeshResult result;
   bool searched = false;
   do {
-    if (pipeline::least_vertices(parts) > n) {
+    if (pipeline::least_vertices(parts) > field.vertices) {
       if (!searched) find_least_vertices(parts, options, workers, clock);
       searched = true;
-      require_vertices(parts, n);
+      require_vertices(parts, field.vertices);
     }
     result = {};
-  } while (
-      !remesh_parts(parts, pipeline::share_vertices(parts, n), options, workers, clock, result));
+  } while (!remesh_parts(parts, pipeline::share_vertices(parts, field.vertices), options, workers,
+                         clock, result));
 
   clock.begin_part(0, 1);
   clock.run("certification", 0.97, 1, [&] { pipeline::certify_result(options, result); });
+  result.size_ratio = pipeline::size_ratio(input, field, result);
   result.stages = std::move(stages);
   if (monitor.cancelled()) result.status = Status::Cancelled;
   return result;

@@ -53,6 +53,10 @@ void check_options(const RemeshOptions& options) {
   if (!(options.max_angle > 60 && options.max_angle <= 90))
     throw InvalidInput(
         fmt::format("the largest angle must be in (60, 90] degrees, not {}.", options.max_angle));
+  if (!(options.gradation > 0))
+    throw InvalidInput(fmt::format("the gradation must be positive, not {}.", options.gradation));
+  if (options.sizing != Sizing::Given && !options.target_lengths.empty())
+    throw InvalidInput("target edge lengths are given, but the sizing is another one.");
   if (!(options.penalty >= 0) || !std::isfinite(options.penalty))
     throw InvalidInput(
         fmt::format("the penalty must be non-negative and finite, not {}.", options.penalty));
@@ -80,6 +84,7 @@ Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options) {
   double h = options.edge_length;
   if (options.relative_edge_length > 0)
     h = options.relative_edge_length * bounding_box_diagonal(input);
+  if (h <= 0 && options.sizing == Sizing::Given) return 0;
   if (h <= 0) return static_cast<Index>(std::max<std::size_t>(4, input.vertices.size()));
   const double n = std::round(surface_area(input) / (0.5 * std::sqrt(3.0) * h * h));
   if (!(n <= kMostVertices))

@@ -17,7 +17,8 @@ void check_options(const RemeshOptions& options);
 void check_input(const TriangleMesh& input);
 
 /// The number of output vertices: given, or from an edge length h as area / (sqrt(3)/2 h^2), the
-/// density of a regular triangulation, or the input's own. At least 4.
+/// density of a regular triangulation, or the input's own. At least 4; or 0 where target lengths
+/// are given and nothing else, since they say how many.
 Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options);
 
 /// The paper's methods start from samples at full size and take 40 iterations (30 to 50 there); the

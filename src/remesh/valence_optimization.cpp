@@ -20,6 +20,7 @@ Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
   // Few samples are enough to hold tips and ridges. Planes are searched where edits happen.
   refine::Fidelity fidelity(surface, bvh);
+  if (!surface.size.empty()) fidelity.size.measure(mesh);
   fidelity.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
   fidelity.search_samples(mesh, workers);
   fidelity.vertex_planes.resize(mesh.vertex_capacity());

@@ -21,6 +21,18 @@ struct CellSums {
   Vec3 moment;
 };
 
+// What the linear interpolant of |x - x_i|^2 has too much over a piece, whatever the site: with
+// linear density rho, A sum over the edges kl of |kl|^2 ((rho_k + rho_l) / 30 + rho_m / 60).
+double flat_energy(const std::array<Vec3, 3>& v, double area, const std::array<double, 3>& rho) {
+  double sum = 0;
+  for (int m = 0; m < 3; ++m) {
+    const int k = mesh::next(m);
+    const int l = mesh::previous(m);
+    sum += squared_distance(v[k], v[l]) * ((rho[k] + rho[l]) / 30 + rho[m] / 60);
+  }
+  return area * sum;
+}
+
 }  // namespace
 
 // A list built with margin m stays exact while no listed site and no dropped one have moved by more
@@ -31,6 +43,7 @@ struct CellSums {
 struct CellEvaluator::Chunk {
   Index begin = 0;
   Index end = 0;
+  double spacing = 0;  // h, the local one
   spatial::Box box;
   double reach = -1;           // -1: nothing listed yet
   double last_step = 0;        // largest nearby
@@ -39,6 +52,7 @@ struct CellEvaluator::Chunk {
   std::vector<Index> entries;  // positions in `table`, by ascending site
   std::vector<Index> table;    // the sites that stand in the lists
   std::vector<CellSums> sums;  // per site of the table
+  std::vector<double> areas;   // the same, with sizes only
   double energy = 0;
   long long relisted = 0;
 };
@@ -64,6 +78,10 @@ CellEvaluator::CellEvaluator(const mesh::Surface& surface, Index site_count,
   if (!(pieces_.spacing > 0)) pieces_.spacing = 1;
   for (Index p = 0; p < pieces_.count(); ++p) {
     const auto [a, b, c] = pieces_.corners_of(p);
+    if (!pieces_.uniform()) {
+      flat_energy_ += flat_energy({a, b, c}, pieces_.area[p], pieces_.density_of(p));
+      continue;
+    }
     flat_energy_ += pieces_.area[p] / 12 *
                     (squared_distance(a, b) + squared_distance(b, c) + squared_distance(c, a));
   }
@@ -73,6 +91,7 @@ CellEvaluator::CellEvaluator(const mesh::Surface& surface, Index site_count,
     chunks_[c]->begin = pieces_.chunk_start[c];
     chunks_[c]->end = pieces_.chunk_start[c + 1];
     chunks_[c]->box = pieces_.box[c];
+    chunks_[c]->spacing = pieces_.chunk_spacing(c);
   }
 }
 
@@ -168,7 +187,7 @@ void CellEvaluator::find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratc
     largest = std::max(largest, scratch.radius[p]);
     ++chunk.relisted;
   }
-  const double needed = 1.001 * largest + 2 * kLargestMargin * pieces_.spacing;
+  const double needed = 1.001 * largest + 2 * kLargestMargin * chunk.spacing;
   chunk.reach = all ? needed : std::max(chunk.reach, needed);
   if (first) {
     chunk.budget.assign(count, -1.0);
@@ -178,13 +197,17 @@ void CellEvaluator::find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratc
 
 void CellEvaluator::relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const {
   const Index count = chunk.end - chunk.begin;
-  const double h = pieces_.spacing;
-  const double margin = previous_.empty() ? kFirstMargin * h
-                                          : std::clamp(kMarginPerStep * chunk.last_step,
-                                                       kSmallestMargin * h, kLargestMargin * h);
+  // Where sizes differ inside a chunk, so do the margins: lists of small cells would fill up.
+  const auto margin_of = [&](Index p) {
+    const double h = pieces_.piece_spacing(chunk.begin + p);
+    return previous_.empty() ? kFirstMargin * h
+                             : std::clamp(kMarginPerStep * chunk.last_step, kSmallestMargin * h,
+                                          kLargestMargin * h);
+  };
   scratch.lister.begin(grid_, sites, inflated(chunk.box, chunk.reach));
   for (Index p = 0; p < count; ++p)
-    if (scratch.base[p] >= 0) scratch.lister.announce(scratch.base[p], scratch.radius[p], margin);
+    if (scratch.base[p] >= 0)
+      scratch.lister.announce(scratch.base[p], scratch.radius[p], margin_of(p));
 
   scratch.start.assign(1, 0);
   scratch.entries.clear();
@@ -203,6 +226,7 @@ void CellEvaluator::relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& s
         add(chunk.table[chunk.entries[e]]);
     } else {
       const double radius = scratch.radius[p];
+      const double margin = margin_of(p);
       const double valid =
           scratch.lister.list(pieces_.corners_of(chunk.begin + p), scratch.base[p], radius, margin,
                               0.5 * (chunk.reach - radius), scratch.list);
@@ -218,6 +242,7 @@ void CellEvaluator::relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& s
 }
 
 void CellEvaluator::integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const {
+  if (!pieces_.uniform()) return integrate_weighted(chunk, sites, scratch);
   chunk.sums.assign(chunk.table.size(), {});
   scratch.points.clear();
   for (const Index site : chunk.table) scratch.points.push_back(sites[site]);
@@ -258,20 +283,62 @@ void CellEvaluator::integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch
   chunk.energy = energy;
 }
 
+// As `integrate`, with moments that hold the density.
+void CellEvaluator::integrate_weighted(Chunk& chunk, std::span<const Vec3> sites,
+                                       Scratch& scratch) const {
+  chunk.sums.assign(chunk.table.size(), {});
+  chunk.areas.assign(chunk.table.size(), 0.0);
+  double energy = 0;
+  for (Index p = chunk.begin; p < chunk.end; ++p) {
+    const Index* list = chunk.entries.data() + chunk.start[p - chunk.begin];
+    const Index count = chunk.start[p - chunk.begin + 1] - chunk.start[p - chunk.begin];
+    const std::array<Vec3, 3> v = pieces_.corners_of(p);
+    const std::array<double, 3> rho = pieces_.density_of(p);
+    const double area = pieces_.area[p];
+    scratch.distances.resize(count);
+    scratch.moments.resize(count);
+    for (Index k = 0; k < count; ++k) {
+      const Vec3& x = sites[chunk.table[list[k]]];
+      scratch.distances[k] = {squared_distance(v[0], x), squared_distance(v[1], x),
+                              squared_distance(v[2], x)};
+    }
+    const double inverse_density = 3 / (rho[0] + rho[1] + rho[2]);
+    for (const Index k : scratch.clipper.clip(scratch.distances, rho, scratch.moments)) {
+      const CornerDistances& d = scratch.distances[k];
+      const Moments& m = scratch.moments[k];
+      const Moments w{area * m[0], area * m[1], area * m[2]};
+      const double mass = w[0] + w[1] + w[2];
+      CellSums& s = chunk.sums[list[k]];
+      s.mass += mass;
+      s.moment += w[0] * v[0] + w[1] * v[1] + w[2] * v[2];
+      chunk.areas[list[k]] += mass * inverse_density;
+      energy += w[0] * d[0] + w[1] * d[1] + w[2] * d[2];
+    }
+  }
+  chunk.energy = energy;
+}
+
 void CellEvaluator::sum_chunks(std::span<const Vec3> sites, CellIntegrals& out) const {
   out.energy = -flat_energy_;
   out.mass.assign(sites.size(), 0.0);
   out.centroid.assign(sites.size(), Vec3{});
+  const bool uniform = pieces_.uniform();
+  out.expected_mass.assign(uniform ? 0 : sites.size(), 0.0);
   for (const auto& chunk : chunks_) {
     out.energy += chunk->energy;
     for (std::size_t k = 0; k < chunk->table.size(); ++k) {
       out.mass[chunk->table[k]] += chunk->sums[k].mass;
       out.centroid[chunk->table[k]] += chunk->sums[k].moment;
+      if (!uniform) out.expected_mass[chunk->table[k]] += chunk->areas[k];
     }
   }
   // A cell of no area, or of rounding's alone, has no centroid.
   const double least = 1e-14 * pieces_.spacing * pieces_.spacing;
+  // A cell of the right size has area 1/sqrt(rho), in units of the mean cell.
+  const double mean_cell = 0.5 * std::sqrt(3.0) * pieces_.spacing * pieces_.spacing;
   for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (!uniform && out.expected_mass[i] > 0)
+      out.expected_mass[i] = mean_cell * std::sqrt(out.mass[i] / out.expected_mass[i]);
     if (out.mass[i] > least)
       out.centroid[i] = out.centroid[i] / out.mass[i];
     else

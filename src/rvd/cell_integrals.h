@@ -19,11 +19,14 @@
 
 namespace nonobtuse::rvd {
 
-/// Integrals over the restricted Voronoi cells, uniform density.
+/// Integrals over the restricted Voronoi cells, with the density of the surface (size^-4; 1 if
+/// uniform).
 struct CellIntegrals {
   double energy = 0;           ///< Eq. 1: sum over cells of the integral of |x - x_i|^2
-  std::vector<double> mass;    ///< #X: area of each cell
+  std::vector<double> mass;    ///< #X: of each cell; its area if the density is uniform
   std::vector<Vec3> centroid;  ///< #X by 3; the site itself where the cell is empty
+  /// #X: the mass that a cell of the right size has there, for judging its own; empty if uniform.
+  std::vector<double> expected_mass;
 };
 
 /// Evaluates the cells of moving sites on one surface. A part of the surface at equal distance from
@@ -64,12 +67,13 @@ class CellEvaluator {
   void find_bases(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void relist(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
+  void integrate_weighted(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void sum_chunks(std::span<const Vec3> sites, CellIntegrals& out) const;
 
   const parallel::Workers& workers_;
   Index site_count_;
   FacetPieces pieces_;
-  double flat_energy_ = 0;  // sum over pieces of A/12 (a^2 + b^2 + c^2)
+  double flat_energy_ = 0;  // see flat_energy
   SiteGrid grid_;
   std::vector<Vec3> previous_;  // sites of the last evaluation
   std::vector<double> step_;    // #X: distance moved since

@@ -89,6 +89,46 @@ Moments FacetClipper::polygon_moments() const {
   return {share - u - v, u, v};
 }
 
+// On a triangle of a fan with densities r_i at its corners c_i, a coordinate b has the integral
+// ((sum r) (sum b) + sum r_i b_i) / 12 times the triangle's area.
+Moments FacetClipper::polygon_moments(const std::array<double, 3>& rho) const {
+  const auto density = [&](const Corner& c) {
+    return rho[0] + c.u * (rho[1] - rho[0]) + c.v * (rho[2] - rho[0]);
+  };
+  double mass = 0;
+  double u = 0;
+  double v = 0;
+  for (std::size_t k = 2; k < size_; ++k) {
+    const Corner& a = polygon_[0];
+    const Corner& b = polygon_[k - 1];
+    const Corner& c = polygon_[k];
+    const double w = ((b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u)) / 12;
+    const double ra = density(a);
+    const double rb = density(b);
+    const double rc = density(c);
+    const double sum = ra + rb + rc;
+    mass += 4 * w * sum;
+    u += w * (sum * (a.u + b.u + c.u) + ra * a.u + rb * b.u + rc * c.u);
+    v += w * (sum * (a.v + b.v + c.v) + ra * a.v + rb * b.v + rc * c.v);
+  }
+  return {mass - u - v, u, v};
+}
+
+std::span<const Index> FacetClipper::clip(std::span<const CornerDistances> d,
+                                          const std::array<double, 3>& rho,
+                                          std::span<Moments> moments) {
+  keep_possible_owners(d);
+  Moments rest = whole_moments(rho);
+  for (std::size_t k = 0; k + 1 < alive_.size(); ++k) {
+    make_part<false>(d, alive_[k]);
+    const Moments m = polygon_moments(rho);
+    moments[alive_[k]] = m;
+    for (int l = 0; l < 3; ++l) rest[l] -= m[l];
+  }
+  moments[alive_.back()] = rest;
+  return alive_;
+}
+
 std::span<const Index> FacetClipper::clip(std::span<const CornerDistances> d,
                                           std::span<Moments> moments) {
   keep_possible_owners(d);

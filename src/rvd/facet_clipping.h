@@ -20,6 +20,12 @@ using CornerDistances = std::array<double, 3>;
 
 inline constexpr Moments kWhole{1.0 / 3, 1.0 / 3, 1.0 / 3};
 
+/// The whole triangle with a linear density.
+inline Moments whole_moments(const std::array<double, 3>& rho) {
+  const double sum = rho[0] + rho[1] + rho[2];
+  return {(sum + rho[0]) / 12, (sum + rho[1]) / 12, (sum + rho[2]) / 12};
+}
+
 /// The part cut off at the corner whose value g[k] alone is positive (or alone is not).
 inline Moments corner_moments(const std::array<double, 3>& g, int k) {
   const int l = k == 2 ? 0 : k + 1;
@@ -55,6 +61,11 @@ class FacetClipper {
   /// that may own a part; the moments of all others are zero and not written.
   std::span<const Index> clip(std::span<const CornerDistances> d, std::span<Moments> moments);
 
+  /// The same with a density that is linear on the triangle, `rho` at its corners: the moments are
+  /// integrals of density times barycentric coordinate, and add up to those of the triangle.
+  std::span<const Index> clip(std::span<const CornerDistances> d, const std::array<double, 3>& rho,
+                              std::span<Moments> moments);
+
   /// Appends the pairs i < j whose parts share a piece of their bisector.
   void adjacent(std::span<const CornerDistances> d, std::vector<std::array<Index, 2>>& pairs);
 
@@ -66,6 +77,7 @@ class FacetClipper {
   template <bool Tagged>
   void make_part(std::span<const CornerDistances> d, Index i);
   [[nodiscard]] Moments polygon_moments() const;
+  [[nodiscard]] Moments polygon_moments(const std::array<double, 3>& rho) const;
 
   std::vector<Index> alive_;
   std::size_t size_ = 0;  // corners of the polygon

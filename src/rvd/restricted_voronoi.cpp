@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "spatial/closest_point.h"
+
 namespace nonobtuse::rvd {
 
 namespace {
@@ -306,8 +308,11 @@ CellSums cell_sums(const mesh::Surface& surface, std::span<const Vec3> sites,
   CellSums result;
   result.mass.assign(sites.size(), 0);
   result.centroid.assign(sites.size(), Vec3{});
+  const bool uniform = surface.size.empty();
+  result.sites.assign(uniform ? 0 : sites.size(), 0);
   std::vector<Vec3> corners;
   for (Index f = 0; f < static_cast<Index>(surface.triangles.size()); ++f) {
+    const Triangle& t = surface.triangles[f];
     for (Index p = diagram.facet_start[f]; p < diagram.facet_start[f + 1]; ++p) {
       const Index i = owner[p];
       corner_positions(surface, sites, diagram, f, p, corners);
@@ -317,7 +322,15 @@ CellSums cell_sums(const mesh::Surface& surface, std::span<const Vec3> sites,
         const Vec3& a = corners[0];
         const Vec3& b = corners[m];
         const Vec3& c = corners[m + 1];
-        const double area = 0.5 * length(area_vector(a, b, c));
+        double area = 0.5 * length(area_vector(a, b, c));
+        if (!uniform) {
+          const auto foot =
+              spatial::closest_point_on_triangle(sites[i] + (a + b + c) / 3, surface.vertices[t[0]],
+                                                 surface.vertices[t[1]], surface.vertices[t[2]]);
+          const double size = surface.size_at(f, foot.barycentric);
+          result.sites[i] += area / (size * size);
+          area /= size * size * size * size;
+        }
         result.mass[i] += area;
         result.centroid[i] += area / 3 * (a + b + c);
         result.energy +=

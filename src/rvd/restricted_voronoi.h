@@ -80,10 +80,12 @@ struct DualEdge {
 std::vector<DualEdge> dual_edges(const mesh::Surface& surface, std::span<const Vec3> sites,
                                  const RestrictedVoronoi& diagram);
 
-/// Integrals over the cells of the exact diagram, uniform density.
+/// Integrals over the cells of the exact diagram; the density of the surface (size^-4, 1 if
+/// uniform) is taken constant on the triangles that a piece falls into.
 struct CellSums {
   double energy = 0;           ///< Eq. 1: sum over cells of the integral of |x - x_i|^2
-  std::vector<double> mass;    ///< #X: area of each cell
+  std::vector<double> mass;    ///< #X: of each cell; its area if the density is uniform
+  std::vector<double> sites;   ///< #X: integral of size^-2, about 1; empty if uniform
   std::vector<Vec3> centroid;  ///< #X by 3; the site itself where the cell is empty
 };
 
