@@ -53,6 +53,16 @@ def faces(given: ArrayLike) -> NDArray[np.int32]:
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
+def lengths(given: ArrayLike | None, name: str) -> NDArray[np.float64]:
+    """(n,) float64, contiguous; empty for None."""
+    array = np.asarray([] if given is None else given)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name} must be numbers; their dtype is {array.dtype}.")
+    if array.ndim != 1:
+        raise InvalidInput(f"{name} must have the shape (n,), not {array.shape}.")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
 def whole_number(given: object, name: str, most: int = _MOST) -> int:
     """An integer in [0, most], numpy's too."""
     try:

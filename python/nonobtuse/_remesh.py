@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 _METHODS = ("default", "cvt", "cvt-nob")
+_SIZINGS = ("uniform", "lfs", "curvature", "given")
 _NAMED = 5  # triangles that a report names
 
 
@@ -30,6 +31,9 @@ def remesh(
     edge_length: float | str | None = None,
     relative_edge_length: float | None = None,
     method: Literal["default", "cvt", "cvt-nob"] = "default",
+    sizing: Literal["uniform", "lfs", "curvature", "given"] | None = None,
+    target_lengths: ArrayLike | None = None,
+    gradation: float = 0.25,
     min_angle: float = 40,
     max_angle: float = 80,
     on_surface: bool = False,
@@ -46,6 +50,11 @@ def remesh(
     edge_length: target edge length in input units instead, or with a per cent sign ("1%") relative
         to the diagonal of the bounding box; relative_edge_length: the same as a fraction (0.01).
     method: "default"; "cvt", centroidal Voronoi tessellation alone; "cvt-nob", the paper's own.
+    sizing: how the target edge length varies: "uniform"; "lfs", with the root of the local feature
+        size; "curvature"; "given", by target_lengths (n,), one for each vertex of V, which without
+        vertices or edge_length also say how many there will be. By default "given" if there are
+        target_lengths and else "uniform".
+    gradation: bound on the growth of the target edge length along the surface, per length.
     min_angle, max_angle: bounds to reach, degrees. The promise is [30, 90).
     on_surface: keep vertices on the input, not at the offset that minimises the distance.
     penalty: weight of the short-dual penalty of "cvt-nob".
@@ -68,6 +77,9 @@ def remesh(
         edge_length=edge_length,
         relative_edge_length=relative_edge_length,
         method=method,
+        sizing=sizing or ("uniform" if target_lengths is None else "given"),
+        target_lengths=target_lengths,
+        gradation=gradation,
         min_angle=min_angle,
         max_angle=max_angle,
         on_surface=on_surface,
@@ -93,6 +105,7 @@ def _options(
     edge_length: float | str | None,
     relative_edge_length: float | None,
     method: str,
+    sizing: str,
     **others: Any,
 ) -> dict[str, Any]:
     if vertices is not None and _arrays.whole_number(vertices, "vertices") == 0:
@@ -116,10 +129,15 @@ def _options(
                 raise InvalidInput(f"{name} must be a positive number, not {length!r}.")
     if method not in _METHODS:
         raise InvalidInput(f"method must be one of {', '.join(_METHODS)}, not {method!r}.")
+    if sizing not in _SIZINGS:
+        raise InvalidInput(f"sizing must be one of {', '.join(_SIZINGS)}, not {sizing!r}.")
     return {
         "vertices": 0 if vertices is None else _arrays.whole_number(vertices, "vertices"),
         **lengths,
         "method": method,
+        "sizing": sizing,
+        "target_lengths": _arrays.lengths(others["target_lengths"], "target_lengths"),
+        "gradation": _arrays.number(others["gradation"], "gradation"),
         "min_angle": _arrays.number(others["min_angle"], "min_angle"),
         "max_angle": _arrays.number(others["max_angle"], "max_angle"),
         "on_surface": bool(others["on_surface"]),
@@ -139,7 +157,7 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
     result.report = Report(
         version=_core.version,
         status=result.status.value,
-        options=options,
+        options={name: v for name, v in options.items() if name != "target_lengths"},
         repairs=outcome["repairs"],
         before=outcome["before"],
         before_vertices=len(result.source.vertices),
@@ -149,6 +167,7 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         promise=_certificate_report(result.certificate, result.mesh),
         seconds=time.perf_counter() - start,
         stages=outcome["stages"],
+        size_ratio=outcome["size_ratio"],
     )
     return result
 

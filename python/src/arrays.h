@@ -20,6 +20,8 @@ namespace nb = nanobind;
 
 /// #V by 3 coordinates.
 using VertexArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+/// #V numbers.
+using LengthArray = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 /// #F by 3 vertex indices.
 using FaceArray = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 

@@ -109,6 +109,21 @@ Method method_of(const std::string& name) {
   return Method::Default;  // the Python side has checked the name
 }
 
+Sizing sizing_of(const std::string& name) {
+  if (name == "lfs") return Sizing::LocalFeatureSize;
+  if (name == "curvature") return Sizing::Curvature;
+  if (name == "given") return Sizing::Given;
+  return Sizing::Uniform;  // likewise
+}
+
+nb::dict to_dict(const SizeRatio& ratio) {
+  nb::dict d;
+  d["median"] = ratio.median;
+  d["percentile_5"] = ratio.percentile_5;
+  d["percentile_95"] = ratio.percentile_95;
+  return d;
+}
+
 nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   RemeshResult& result = outcome.result;
   nb::list stages;
@@ -129,6 +144,7 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["after"] = angles_dict(result.angles);
   d["before"] = angles_dict(outcome.before);
   d["stages"] = stages;
+  d["size_ratio"] = to_dict(result.size_ratio);
   d["repairs"] = to_list(outcome.repairs);
   d["repaired"] = outcome.repairs.empty()
                       ? nb::none()
@@ -139,14 +155,20 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
 
 nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Index count,
                        double edge_length, double relative_edge_length, const std::string& method,
-                       double min_angle, double max_angle, bool on_surface, double penalty,
-                       std::uint64_t seed, int threads, nb::object progress, bool clean_first) {
+                       const std::string& sizing, const LengthArray& target_lengths,
+                       double gradation, double min_angle, double max_angle, bool on_surface,
+                       double penalty, std::uint64_t seed, int threads, nb::object progress,
+                       bool clean_first) {
   const TriangleMesh given = mesh_of(vertices, faces);
   RemeshOptions options;
   options.vertices = count;
   options.edge_length = edge_length;
   options.relative_edge_length = relative_edge_length;
   options.method = method_of(method);
+  options.sizing = sizing_of(sizing);
+  options.target_lengths.assign(target_lengths.data(),
+                                target_lengths.data() + target_lengths.shape(0));
+  options.gradation = gradation;
   options.min_angle = min_angle;
   options.max_angle = max_angle;
   options.on_surface = on_surface;
@@ -169,6 +191,7 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
 void bind_remesh(nb::module_& module) {
   module.def("remesh", remesh_arrays, nb::arg(), nb::arg(), nb::kw_only(), nb::arg("vertices"),
              nb::arg("edge_length"), nb::arg("relative_edge_length"), nb::arg("method"),
+             nb::arg("sizing"), nb::arg("target_lengths"), nb::arg("gradation"),
              nb::arg("min_angle"), nb::arg("max_angle"), nb::arg("on_surface"), nb::arg("penalty"),
              nb::arg("seed"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("clean"));
 }

@@ -106,6 +106,29 @@ def test_every_option_of_the_library_is_a_keyword():
     assert {"threads", "progress", "clean"} <= set(keywords)
 
 
+@pytest.mark.parametrize("sizing", ["lfs", "curvature"])
+def test_sizing_by_name(mesh, sizing):
+    result = nonobtuse.remesh(*mesh, vertices=700, sizing=sizing)
+    assert len(result.vertices) == 700
+    assert result.report["options"]["sizing"] == sizing
+    assert 0.9 < result.report["size_ratio"]["median"] < 1.1
+
+
+def test_target_lengths():
+    vertices, faces = sphere(4)
+    lengths = 0.1 + 0.05 * vertices[:, 2]  # three times as long at the top as at the bottom
+    result = nonobtuse.remesh(vertices, faces, vertices=900, target_lengths=lengths)
+    assert len(result.vertices) == 900
+    edges = result.vertices[result.faces] - result.vertices[np.roll(result.faces, 1, axis=1)]
+    length = np.linalg.norm(edges, axis=2).mean(axis=1)
+    height = result.vertices[result.faces].mean(axis=1)[:, 2]
+    assert length[height > 0.8].mean() > 1.8 * length[height < -0.8].mean()
+    with pytest.raises(nonobtuse.InvalidInput):
+        nonobtuse.remesh(vertices, faces, vertices=900, target_lengths=lengths[:-1])
+    with pytest.raises(nonobtuse.InvalidInput):
+        nonobtuse.remesh(vertices, faces, vertices=900, sizing="square")
+
+
 @pytest.mark.parametrize("method", ["cvt", "cvt-nob"])
 def test_methods(mesh, method):
     result = nonobtuse.remesh(*mesh, vertices=700, method=method)
