@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kRings = 2;
 constexpr int kSequences = 40;
+// For a few places; a surface that resists everywhere is left as it is.
+constexpr Index kAttempts = 30;
+constexpr Index kTrianglesPerAttempt = 200;
 
 bool better(const PatchScore& a, const PatchScore& b) {
   return std::tie(a.folded, a.bad_valence, a.outside_promise, a.outside_goal) <
@@ -76,8 +79,10 @@ Index mend_triangles(mesh::EditableMesh& mesh, Fidelity& fidelity,
   TriangleMender mender(mesh, fidelity, options, workers);
   const AngleTest goal(options.goal);
   Index changes = 0;
+  Index attempts = kAttempts + mesh.triangle_count() / kTrianglesPerAttempt;
   for (Index t : triangles) {
     if (!mesh.alive_triangle(t) || goal.inside(mesh, t)) continue;
+    if (attempts-- <= 0) break;
     if (!keep_going()) break;
     bool changed = mender.by_flips(t);
     for (int net : {-1, 1})

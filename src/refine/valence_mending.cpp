@@ -10,6 +10,10 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr int kPasses = 6;
+// Attempts after the first pass: enough for the few places of a smooth surface; where every vertex
+// of a crumpled one resists, more would take minutes and mend nothing.
+constexpr Index kDearAttempts = 100;
+constexpr Index kVerticesPerAttempt = 20;
 constexpr double kFlat = 0.98;  // length of a ring's summed normal over its area
 constexpr int kPlaces = 24;     // tried to balance the count
 
@@ -153,6 +157,7 @@ Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
   Mender mender(mesh, fidelity, options, strict, workers);
   // Cheap attempts first, on all of them; dearer ones only where these failed.
   const std::array<Effort, 3> efforts{Effort{3, 2}, Effort{3, 4}, Effort{4, 5}};
+  Index dear = kDearAttempts + mesh.vertex_count() / kVerticesPerAttempt;
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::vector<Index> bad = bad_valences(mesh);
     if (bad.empty()) return 0;
@@ -161,6 +166,7 @@ Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
     for (Index v : bad) {
       if (!keep_going()) return static_cast<Index>(bad_valences(mesh).size());
       if (!mesh.alive_vertex(v) || good_valence(mesh.valence(v), mesh.on_boundary(v))) continue;
+      if (pass >= 1 && dear-- <= 0) return static_cast<Index>(bad_valences(mesh).size());
       if (mender.by_flips(v, effort)) continue;
       if (pass >= 2 && !mesh.on_boundary(v)) mender.by_pair(v, {4, 2});
     }
