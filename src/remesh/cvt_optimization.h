@@ -22,9 +22,9 @@ struct CvtOptions {
   /// end earlier where `kStride` evaluations lower the energy by less than the tolerance (relative;
   /// 0 never): thin and knotty surfaces need three times as many as smooth ones.
   int iterations = 80;
-  double tolerance = 2e-4;
+  double tolerance = 4e-4;
   int coarse_iterations = 80;
-  double coarse_tolerance = 1.5e-3;
+  double coarse_tolerance = 2.5e-3;
   /// How often the sites are first quartered; 0 starts from random samples at full size. Parts
   /// with fewer than 64 sites are never quartered.
   int coarse_levels = 1;
