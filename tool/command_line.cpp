@@ -198,6 +198,14 @@ void add_remesh(CLI::App& app, Draft& draft) {
                    "distance");
   command.add_option("--seed", c.options.seed, "Seed of the random start")
       ->type_name("N")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            const bool fine = !text.empty() && text.size() < 20 &&
+                              text.find_first_not_of("0123456789") == std::string::npos;
+            return fine ? std::string()
+                        : "it must be a whole number of at most 19 digits, not '" + text + "'";
+          },
+          ""))
       ->capture_default_str();
   add_threads(command, c.threads);
   command.add_flag("--no-distance", c.no_distance,

@@ -12,6 +12,9 @@ namespace nonobtuse::pipeline {
 
 namespace {
 
+// Below, coordinates lose bits to underflow.
+constexpr double kLeastExtent = 1e-304;
+
 // Centre of the bounding box and the power of two that brings its extent into [1/2, 1).
 mesh::Normalization unit_box(const std::vector<Vec3>& vertices) {
   Vec3 low = vertices.front();
@@ -25,6 +28,9 @@ mesh::Normalization unit_box(const std::vector<Vec3>& vertices) {
   const double half_extent = std::max(
       {0.5 * high.x - 0.5 * low.x, 0.5 * high.y - 0.5 * low.y, 0.5 * high.z - 0.5 * low.z});
   if (!(half_extent > 0)) throw InvalidInput("the mesh has no extent: all its vertices coincide.");
+  if (half_extent < kLeastExtent)
+    throw InvalidInput(
+        "the mesh is too small for double precision (extent below 1e-304): scale it up first.");
   int exponent = 0;
   std::frexp(half_extent, &exponent);
   map.scale = std::ldexp(1.0, -std::clamp(exponent + 1, -1000, 1000));
