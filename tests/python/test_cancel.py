@@ -67,6 +67,8 @@ def test_ctrl_c_gives_the_best_mesh_so_far(big, with_callback):
         time.sleep(0.3)
         os.kill(os.getpid(), signal.SIGINT)
 
+    # A shell starts background jobs with SIGINT ignored, and Python then leaves it so.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     thread = threading.Thread(target=interrupt)
     thread.start()
     progress = (lambda *_: None) if with_callback else None
@@ -75,6 +77,7 @@ def test_ctrl_c_gives_the_best_mesh_so_far(big, with_callback):
             nonobtuse.remesh(*big, vertices=40000, progress=progress)
     finally:
         thread.join()
+        signal.signal(signal.SIGINT, before)
     assert isinstance(info.value, KeyboardInterrupt)
     assert isinstance(info.value.__cause__, KeyboardInterrupt)
     result = info.value.result
