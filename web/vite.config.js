@@ -1,0 +1,14 @@
+// Built beside the sources' other products, below build/; bundle.mjs makes one file of it.
+import { defineConfig } from "vite";
+
+export default defineConfig({
+  base: "./",
+  build: {
+    outDir: "../build/web",
+    emptyOutDir: true,
+    target: "es2022",
+    modulePreload: false,
+    assetsInlineLimit: 1_000_000,
+  },
+  esbuild: { charset: "ascii", legalComments: "none" },
+});
