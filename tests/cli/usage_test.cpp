@@ -70,6 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"EdgeLengthNoNumber", {"in.obj", "-o", "o.obj", "--edge-length", "1cm"}, "1cm"},
         Mistake{"EdgeLengthZero", {"in.obj", "-o", "o.obj", "--edge-length", "0"}, "--edge-length"},
         Mistake{"EdgeLengthOnlySign", {"in.obj", "-o", "o.obj", "--edge-length", "%"}, "%"},
+        Mistake{"EdgeLengthEmpty", {"in.obj", "-o", "o.obj", "--edge-length", ""}, "--edge-length"},
         Mistake{"UnknownMethod", {"in.obj", "-o", "o.obj", "--method", "magic"}, "--method"},
         Mistake{"MinAngleTooLarge", {"in.obj", "-o", "o.obj", "--min-angle", "60"}, "--min-angle"},
         Mistake{"MaxAngleTooSmall", {"in.obj", "-o", "o.obj", "--max-angle", "60"}, "--max-angle"},
