@@ -282,9 +282,10 @@ function start(): void {
     views.edges = (e.target as HTMLInputElement).checked;
   });
   by("reset").addEventListener("click", () => views.reset());
-  fillPlaces(listPlaces(report, before, after), (place) =>
-    views.visit(spot(place.which === "after" ? after : before, place.triangle)),
-  );
+  fillPlaces(listPlaces(report, before, after), (place) => {
+    by("views").scrollIntoView({ block: "nearest" });
+    views.visit(spot(place.which === "after" ? after : before, place.triangle));
+  });
   let pressed = [0, 0];
   for (const canvas of canvases) {
     canvas.addEventListener("pointerdown", (e) => {
@@ -299,8 +300,9 @@ function start(): void {
         : "";
     });
   }
-  // For tests: where the camera is.
-  Object.assign(window, { nonobtuseReport: { camera: () => views.state } });
+  // For tests: where the camera is, and whether it is on its way.
+  const nonobtuseReport = { camera: () => views.state, flying: () => views.flying };
+  Object.assign(window, { nonobtuseReport });
 }
 
 start();

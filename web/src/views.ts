@@ -46,12 +46,12 @@ void main() {
   float light = 0.45 + 0.5 * abs(dot(n, normalize(vec3(0.25, 0.35, 1.0))))
               + 0.08 * abs(dot(n, normalize(vec3(-1.0, 0.2, 0.3))));
   vec3 width = fwidth(place);
-  vec3 inside = smoothstep(vec3(0.2), vec3(1.2), place / width);
+  vec3 inside = smoothstep(vec3(0.1), vec3(1.1), place / width);
   float line = 1.0 - min(inside.x, min(inside.y, inside.z));
   // Where triangles are smaller than a few pixels, lines would be all there is to see.
   float fine = max(width.x, max(width.y, width.z));
-  line *= edges * (1.0 - smoothstep(0.12, 0.4, fine));
-  result = vec4(mix(color * light, vec3(0.12, 0.12, 0.16), 0.75 * line), 1.0);
+  line *= edges * (1.0 - smoothstep(0.05, 0.3, fine));
+  result = vec4(mix(color * light, vec3(0.12, 0.12, 0.16), 0.7 * line), 1.0);
 }`;
 
 class View {
@@ -128,6 +128,8 @@ export class Views {
   private marked: Vector3 | null = null;
   private pending = false;
   private flight = 0;
+  /** Whether the camera is on its way. */
+  flying = false;
 
   constructor(canvases: HTMLCanvasElement[], meshes: Mesh[]) {
     this.views = canvases.map((canvas, i) => new View(canvas, meshes[i]));
@@ -217,7 +219,8 @@ export class Views {
       this.camera.up.lerpVectors(from[2], up, f).normalize();
       this.camera.lookAt(this.target);
       this.draw();
-      if (x < 1) requestAnimationFrame(step);
+      this.flying = x < 1;
+      if (this.flying) requestAnimationFrame(step);
     };
     step();
   }
