@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -86,8 +87,7 @@ double parse_number(const std::string& text, const std::string& whole, const cha
 }
 
 void set_edge_length(const std::string& text, RemeshOptions& options) {
-  if (text.empty()) return;
-  if (text.back() == '%') {
+  if (!text.empty() && text.back() == '%') {
     options.relative_edge_length =
         parse_number(text.substr(0, text.size() - 1), text, "--edge-length") / 100;
   } else {
@@ -140,7 +140,7 @@ void add_threads(CLI::App& command, int& threads) {
 // Everything a command line can fill in, before we know which command it names.
 struct Draft {
   RemeshCommand remesh;
-  std::string edge_length;
+  std::optional<std::string> edge_length;
   std::string method = "default";
   std::string sizing = "uniform";
   MeasureCommand measure;
@@ -307,7 +307,7 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
   CommandLine line;
   if (app.got_subcommand("remesh")) {
     RemeshOptions& options = draft.remesh.options;
-    set_edge_length(draft.edge_length, options);
+    if (draft.edge_length) set_edge_length(*draft.edge_length, options);
     options.method = parse_method(draft.method);
     set_sizing(draft.sizing, draft.remesh);
     if (options.iterations > 0 && options.method == Method::Default)

@@ -71,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"EdgeLengthNoNumber", {"in.obj", "-o", "o.obj", "--edge-length", "1cm"}, "1cm"},
         Mistake{"EdgeLengthZero", {"in.obj", "-o", "o.obj", "--edge-length", "0"}, "--edge-length"},
         Mistake{"EdgeLengthOnlySign", {"in.obj", "-o", "o.obj", "--edge-length", "%"}, "%"},
+        Mistake{"EdgeLengthEmpty", {"in.obj", "-o", "o.obj", "--edge-length", ""}, "--edge-length"},
         Mistake{"UnknownMethod", {"in.obj", "-o", "o.obj", "--method", "magic"}, "--method"},
         Mistake{"NormalWeightBelowOne",
                 {"in.obj", "-o", "o.obj", "--normal-weight", "0.5"},
