@@ -114,11 +114,11 @@ TEST_F(Remesh, ReportsTheHistoryOfThePapersMethods) {
   ASSERT_FALSE(json.is_discarded());
   std::vector<std::string> seen;
   for (const auto& record : json["history"])
-    seen.push_back(record["stage"].get<std::string>() + " " +
+    seen.push_back(record["stage"].get<std::string>() + ' ' +
                    std::to_string(record["iteration"].get<int>()));
   std::vector<std::string> expected;
   for (const char* stage : {"cvt", "obtuse removal", "feature-sensitive"})
-    for (int k = 0; k <= 4; ++k) expected.push_back(stage + (" " + std::to_string(k)));
+    for (int k = 0; k <= 4; ++k) expected.push_back(std::string(stage) + ' ' + std::to_string(k));
   EXPECT_EQ(seen, expected);
   EXPECT_GT(json["history"][0]["obtuse"], json["history"][4]["obtuse"]);
   EXPECT_FALSE(run("again.off", false).contains("history"));
