@@ -107,6 +107,7 @@ Json json_of(const RemeshCommand& command, const Outcome& outcome, int code, Ind
             {"promise", to_json(outcome.promise, outcome.written, named)},
             {"seconds", outcome.seconds},
             {"stages", to_json(outcome.result.stages)}};
+  if (command.options.history) json["history"] = to_json(outcome.result.history);
   if (outcome.distance) json["distance"] = to_json(*outcome.distance);
   return json;
 }
