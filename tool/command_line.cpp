@@ -330,8 +330,9 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
     set_sizing(draft.sizing, draft.remesh);
     if (options.iterations > 0 && options.method == Method::Default)
       throw UsageError("--iterations is for the methods cvt, cvt-fs and cvt-nob only");
-    if (options.history && !draft.remesh.json)
-      throw UsageError("--history adds to the JSON report: give --json too");
+    if (options.history && !draft.remesh.json && draft.remesh.report.empty())
+      throw UsageError("--history adds to the JSON report: give --json or --report too");
+    if (!draft.remesh.report.empty()) options.history = true;
     check_bounds(options.min_angle, options.max_angle);
     if (options.min_angle >= 60) throw UsageError("--min-angle must be below 60");
     check_output(draft.remesh.output);

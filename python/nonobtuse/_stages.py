@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _arrays, _core
+from ._errors import InvalidInput
 
 if TYPE_CHECKING:
     import numpy as np
@@ -102,4 +103,25 @@ def cvt_energy(
             _arrays.points(sites, "sites"),
             _arrays.whole_number(threads, "threads"),
         )
+    )
+
+
+def local_feature_size(
+    vertices: ArrayLike, faces: ArrayLike, *, samples: int = 40_000, threads: int = 0
+) -> NDArray[np.float64]:
+    """(n,): the distance of every vertex to the medial axis (Amenta and Bern 1999), input units.
+
+    The mesh must be fine where the shape is; ``sizing="lfs"`` makes edges as long as the root of
+    it. Infinite where there is no medial axis, as on a plane. The axis is found by shrinking balls
+    (Ma et al. 2012) from about ``samples`` points spread evenly over the surface: sharp edges have
+    none of their own, and what is finer than the samples is not seen.
+    """
+    count = _arrays.whole_number(samples, "samples", 10_000_000)
+    if count < 100:
+        raise InvalidInput(f"samples must be at least 100, not {count}.")
+    return _core.local_feature_size(
+        _arrays.points(vertices),
+        _arrays.faces(faces),
+        count,
+        _arrays.whole_number(threads, "threads"),
     )

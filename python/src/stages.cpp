@@ -12,10 +12,12 @@
 #include "parallel/workers.h"
 #include "quality/validity.h"
 #include "rdt/restricted_delaunay.h"
+#include "remesh/normalization.h"
 #include "rvd/candidate_lists.h"
 #include "rvd/cell_integrals.h"
 #include "rvd/localized_cells.h"
 #include "rvd/restricted_voronoi.h"
+#include "sizing/local_feature_size.h"
 
 namespace nonobtuse::python {
 namespace {
@@ -29,12 +31,7 @@ struct Problem {
 };
 
 // Throws InvalidInput for what the engines take for granted.
-Problem problem_of(const TriangleMesh& input, const std::vector<Vec3>& sites) {
-  const Index count = static_cast<Index>(sites.size());
-  if (count == 0) throw InvalidInput("There must be at least one site.");
-  for (Index i = 0; i < count; ++i)
-    if (!is_finite(sites[i]))
-      throw InvalidInput("Site " + std::to_string(i) + " is not finite.", i);
+void require_surface(const TriangleMesh& input) {
   quality::require_measurable(input);
   if (input.triangles.empty()) throw InvalidInput("The mesh has no triangles.");
   const Topology topology = measure_topology(input);
@@ -42,6 +39,15 @@ Problem problem_of(const TriangleMesh& input, const std::vector<Vec3>& sites) {
     throw InvalidInput(
         "The mesh must have at most two triangles at every edge, oriented alike; see "
         "nonobtuse.clean.");
+}
+
+Problem problem_of(const TriangleMesh& input, const std::vector<Vec3>& sites) {
+  const Index count = static_cast<Index>(sites.size());
+  if (count == 0) throw InvalidInput("There must be at least one site.");
+  for (Index i = 0; i < count; ++i)
+    if (!is_finite(sites[i]))
+      throw InvalidInput("Site " + std::to_string(i) + " is not finite.", i);
+  require_surface(input);
   Problem problem;
   problem.scale = std::min(quality::unit_scale(input), quality::unit_scale({sites, {}}));
   TriangleMesh scaled = quality::scaled(input, problem.scale);
@@ -155,12 +161,28 @@ nb::tuple cvt_energy_arrays(const VertexArray& vertices, const FaceArray& faces,
                         array_of(std::move(cells.mass)), array_of(std::move(cells.centroid)));
 }
 
+nb::object local_feature_size_array(const VertexArray& vertices, const FaceArray& faces,
+                                    Index samples, int threads) {
+  const TriangleMesh mesh = mesh_of(vertices, faces);
+  std::vector<double> sizes;
+  {
+    const nb::gil_scoped_release release;
+    require_surface(mesh);
+    const parallel::Workers workers(threads);
+    const pipeline::NormalizedInput input = pipeline::normalize(mesh, samples);
+    sizes = sizing::local_feature_size(input.surface, samples, workers);
+    for (double& s : sizes) s = s / input.map.scale;
+  }
+  return array_of(std::move(sizes));
+}
+
 }  // namespace
 
 void bind_stages(nb::module_& module) {
   module.def("restricted_voronoi", restricted_voronoi_arrays);
   module.def("restricted_delaunay", restricted_delaunay_arrays);
   module.def("cvt_energy", cvt_energy_arrays);
+  module.def("local_feature_size", local_feature_size_array);
 }
 
 }  // namespace nonobtuse::python

@@ -193,7 +193,7 @@ function fillConvergence(report: Report): void {
     box.append(curve(`${stage}: obtuse triangles`, records.map((r) => (r.obtuse < 0 ? null : r.obtuse)), "#e24a8d", true));
   }
   box.append(
-    bars("Seconds", report.stages.map((s) => ({ name: s.stage, value: s.seconds, text: `${s.seconds.toFixed(3)} s` }))),
+    bars(stages.length ? "Seconds, the recording of the iterations included" : "Seconds", report.stages.map((s) => ({ name: s.stage, value: s.seconds, text: `${s.seconds.toFixed(3)} s` }))),
   );
 }
 

@@ -49,8 +49,8 @@ void main() {
   vec3 inside = smoothstep(vec3(0.1), vec3(1.1), place / width);
   float line = 1.0 - min(inside.x, min(inside.y, inside.z));
   // Where triangles are smaller than a few pixels, lines would be all there is to see.
-  float fine = max(width.x, max(width.y, width.z));
-  line *= edges * (1.0 - smoothstep(0.05, 0.3, fine));
+  float fine = sqrt(abs(dFdx(place.x) * dFdy(place.y) - dFdx(place.y) * dFdy(place.x)));
+  line *= edges * (1.0 - smoothstep(0.06, 0.25, fine));
   result = vec4(mix(color * light, vec3(0.12, 0.12, 0.16), 0.7 * line), 1.0);
 }`;
 
@@ -171,7 +171,7 @@ export class Views {
 
   reset(): void {
     this.marked = null;
-    const far = (1.1 * this.radius) / Math.sin((this.camera.fov * Math.PI) / 360);
+    const far = (0.9 * this.radius) / Math.sin((this.camera.fov * Math.PI) / 360);
     const from = new Vector3(0.45, 0.35, 1).normalize().multiplyScalar(far);
     this.fly(from, new Vector3(), new Vector3(0, 1, 0), this.flight === 0 ? 0 : 400);
   }
