@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -55,8 +56,7 @@ def plot(
     features: (e, 2) pairs of vertices, drawn as red lines on the one mesh given.
     size: pixels of each picture. view: direction from which the mesh is seen. up: what is up.
     """
-    import pyvista
-
+    pyvista: Any = importlib.import_module("pyvista")
     if not meshes:
         raise InvalidInput("There must be at least one mesh to draw.")
     if isinstance(color, str) and color not in COLORS:

@@ -29,17 +29,16 @@ def full_report(
     full = dict(report)
     full["goal"] = _quality.certificate_report(goal, mesh, _LISTED)
     full["promise"] = _quality.certificate_report(promise, mesh, _LISTED)
-    near: dict[str, Any] = {"before": None, "after": None}
+    near: dict[str, NDArray[np.float64] | None] = {"before": None, "after": None}
     measurable = len(mesh.faces) > 0 and len(source.faces) + len(mesh.faces) <= _DISTANCE_LIMIT
-    nothing = (np.empty((0, 3)), np.empty((0, 3), np.int32))
-    after = _core.measure(*mesh, *(source if measurable else nothing), measurable, 0)
     if measurable:
+        after = _quality.measure(*mesh, against=source)
         full["distance"] = after["distance"]
         full["self_intersections"] = after["self_intersections"]
-        near["before"] = _core.vertex_distances(*source, *mesh, 0)
-        near["after"] = _core.vertex_distances(*mesh, *source, 0)
-    full["before_topology"] = _core.topology(*source)
-    full["after_topology"] = after["topology"]
+        near["before"] = _quality.vertex_distances(*source, against=mesh)
+        near["after"] = _quality.vertex_distances(*mesh, against=source)
+    full["before_topology"] = _core.topology(source.vertices, source.faces)
+    full["after_topology"] = _core.topology(mesh.vertices, mesh.faces)
     lows, highs = source.vertices.min(axis=0), source.vertices.max(axis=0)
     origin = lows / 2 + highs / 2
     full["meshes"] = {

@@ -131,3 +131,15 @@ def test_what_cannot_be_used_is_refused(call):
         call(0 * vertices, faces, vertices)
     coincident = np.concatenate([vertices, vertices])
     assert call(vertices, faces, coincident) is not None
+
+
+def test_local_feature_size_of_a_sphere_is_its_radius(mesh):
+    vertices, faces = sphere(4)
+    sizes = nonobtuse.local_feature_size(3 * vertices + [5, 0, -7], faces, samples=2000)
+    np.testing.assert_allclose(sizes, 3, rtol=0.1)
+    one, two = (nonobtuse.local_feature_size(*mesh, samples=4000, threads=t) for t in (1, 2))
+    assert one.tobytes() == two.tobytes() and 0 < one.min() < one.max() < 1
+    with pytest.raises(nonobtuse.InvalidInput, match="samples"):
+        nonobtuse.local_feature_size(vertices, faces, samples=3)
+    with pytest.raises(nonobtuse.InvalidInput):
+        nonobtuse.local_feature_size(vertices, np.concatenate([faces, faces]))

@@ -1,16 +1,11 @@
 // Opens reports in a browser as a reader would: node test/report.test.mjs REPORT.html...
 // No error on the console and no request, both canvases drawn, colours and turning change both, a
-// click on a place moves the camera there. CHROMIUM says where the browser is; SCREENSHOTS, a
-// folder, keeps pictures.
+// click on a place moves the camera there. SCREENSHOTS, a folder, keeps pictures.
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { launch } from "./browser.mjs";
 
-const browserPath =
-  process.env.CHROMIUM ??
-  ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
 const screenshots = process.env.SCREENSHOTS;
 
 /** Of each canvas: how many colours it shows, and a hash of its pixels. */
@@ -115,10 +110,7 @@ async function look(browser, file) {
   await page.close();
 }
 
-const browser = await chromium.launch({
-  executablePath: browserPath,
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
+const browser = await launch();
 try {
   for (const file of process.argv.slice(2)) {
     await look(browser, file);
