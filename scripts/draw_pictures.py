@@ -5,7 +5,7 @@ import pathlib
 import nonobtuse
 
 IMAGES = pathlib.Path(__file__).resolve().parents[1] / "docs" / "images"
-SIZE = (700, 640)
+SIZE = (600, 540)
 
 
 def draw(name, *meshes, **options):
@@ -17,11 +17,9 @@ def main():
     surface = nonobtuse.sample(40)
     result = nonobtuse.remesh(*surface, vertices=3000)
     draw("sample", surface, result)
-    draw("valence", surface, result, color="valence")
-    sized = nonobtuse.remesh(*surface, vertices=3000, sizing="lfs")
-    draw("sizing", result, sized, color="sizing")
     coarse = nonobtuse.remesh(*surface, vertices=1200)
-    draw("cells", coarse, color="cells")
+    coarse_sized = nonobtuse.remesh(*surface, vertices=1200, sizing="curvature")
+    draw("cells", coarse, coarse_sized, color="cells")
     nonobtuse.remesh(*surface, vertices=3000, history=True).report.save(
         IMAGES.parents[1] / "build" / "report.html"
     )

@@ -72,8 +72,11 @@ def plot(
     plotter.set_background("white")
     for k, given in enumerate(meshes):
         plotter.subplot(0, k)
-        _draw(plotter, pyvista, given, color, features, edges)
         mesh = _mesh_of(given)
+        # Lines lie a little nearer to the eye than the surface, which would swallow half of them.
+        toward = np.asarray(view, float) / np.linalg.norm(view)
+        lift = 1.5e-3 * float(np.linalg.norm(np.ptp(mesh.vertices, axis=0))) * toward
+        _draw(plotter, pyvista, given, color, features, edges, lift)
         middle = (mesh.vertices.min(axis=0) + mesh.vertices.max(axis=0)) / 2
         plotter.camera.up = up
         plotter.camera.focal_point = middle
@@ -103,6 +106,7 @@ def _draw(
     color: str | ArrayLike,
     features: ArrayLike | None,
     edges: bool,
+    lift: NDArray[np.float64],
 ) -> None:
     mesh = _mesh_of(given)
     lines = _edges(mesh.faces) if edges else np.empty((0, 2), np.int32)
@@ -126,11 +130,11 @@ def _draw(
         surface.cell_data["rgb"] = colors
         plotter.add_mesh(surface, scalars="rgb", rgb=True, **light)
     if len(lines):
-        _add_lines(plotter, pyvista, points, lines, _LINES, 1.0)
+        _add_lines(plotter, pyvista, points + lift, lines, _LINES, 1.0)
     if features is not None:
         pairs = np.asarray(features, np.int64).reshape(-1, 2)
         if len(pairs):
-            _add_lines(plotter, pyvista, mesh.vertices, pairs, _CREASE, 4.0)
+            _add_lines(plotter, pyvista, mesh.vertices + 2 * lift, pairs, _CREASE, 4.0)
 
 
 def _add_lines(

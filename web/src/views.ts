@@ -149,9 +149,9 @@ export class Views {
         canvas.addEventListener(event, () => requestAnimationFrame(update), { passive: true });
       return controls;
     });
+    this.resize();
     this.reset();
     new ResizeObserver(() => this.resize()).observe(canvases[0].parentElement!);
-    this.resize();
   }
 
   show(colorings: Coloring[]): void {
@@ -171,7 +171,8 @@ export class Views {
 
   reset(): void {
     this.marked = null;
-    const far = (0.9 * this.radius) / Math.sin((this.camera.fov * Math.PI) / 360);
+    const narrow = Math.min(1, this.camera.aspect);
+    const far = (1.02 * this.radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
     const from = new Vector3(0.45, 0.35, 1).normalize().multiplyScalar(far);
     this.fly(from, new Vector3(), new Vector3(0, 1, 0), this.flight === 0 ? 0 : 400);
   }
