@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "mesh/surface.h"
@@ -43,9 +44,10 @@ inline constexpr int kStride = 5;
 /// Minimises the CVT energy by L-BFGS (m = 7, preconditioned by the cells' masses) with at most
 /// `evaluations` evaluations, or until `kStride` of them gain less than `tolerance` (relative); the
 /// first step is Lloyd's. `sites` become the best found. `callback` (may be empty) hears the number
-/// of each evaluation; returning false stops. Returns the energy.
+/// of each evaluation; returning false stops. Sites marked in `fixed` (#X, or empty) stay where they
+/// are. Returns the energy.
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
                     double tolerance, const parallel::Workers& workers,
-                    const std::function<bool(int)>& callback);
+                    const std::function<bool(int)>& callback, std::span<const char> fixed = {});
 
 }  // namespace nonobtuse::pipeline
