@@ -64,6 +64,14 @@ void check_options(const RemeshOptions& options) {
 
 void check_input(const TriangleMesh& input) {
   const CleanResult cleaned = clean(input);
+  if (!cleaned.kept.empty()) {
+    const Repair& first = cleaned.kept.front();
+    throw InvalidInput(
+        fmt::format("the surface is no manifold ({}: {}, the first at index {}); part "
+                    "it there first.",
+                    first.what, first.count, first.first),
+        first.first);
+  }
   if (cleaned.repairs.empty()) return;
   const Repair& first = cleaned.repairs.front();
   throw InvalidInput(
