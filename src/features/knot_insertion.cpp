@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <tuple>
 #include <utility>
 
+#include "mesh/cut.h"
 #include "mesh/topology.h"
 
 namespace nonobtuse::features {
@@ -57,13 +58,9 @@ class Inserter {
   }
 
   void add_curve(const FeatureCurve& curve) {
-    mesh::Curve polyline;
-    for (const Index v : curve.vertices) polyline.points.push_back(surface_.vertices[v]);
-    polyline.arc = curve_lengths(surface_, curve).arc;
-    polyline.length = polyline.arc.back();
-    polyline.arc.pop_back();
-    polyline.closed = curve.closed;
-    out_.network.curves.push_back(std::move(polyline));
+    std::vector<Vec3> points;
+    for (const Index v : curve.vertices) points.push_back(surface_.vertices[v]);
+    out_.network.curves.push_back(mesh::make_curve(std::move(points), curve.closed));
   }
 
   void freeze(const FeatureCurve& curve) {
@@ -188,48 +185,21 @@ KnottedSurface insert_knots(const mesh::Surface& surface, const EdgeFlags& flags
 }
 
 CutSurface cut_open(const KnottedSurface& knotted) {
-  // Corners of facets are joined across edges that are no features (union-find); every set is a
-  // sector, and gets its own copy of the vertex.
-  const std::vector<Triangle>& triangles = knotted.triangles;
   const auto vertices = static_cast<Index>(knotted.vertices.size());
-  std::vector<Index> parent(3 * triangles.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index c) {
-    while (parent[c] != c) c = parent[c] = parent[parent[c]];
-    return c;
-  };
-  const auto corner_at = [&](const mesh::EdgeSide& s, Index v) {
-    const Triangle& t = triangles[s.triangle];
-    return 3 * s.triangle + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
-  };
-  mesh::for_each_edge(mesh::edge_sides(triangles, vertices),
-                      [&](const mesh::EdgeSide* first, const mesh::EdgeSide* last) {
-                        if (last - first != 2 ||
-                            flagged(knotted.flags, first->triangle, first->corner))
-                          return;
-                        for (const Index v : {first->low, first->high}) {
-                          const Index a = root(corner_at(first[0], v));
-                          const Index b = root(corner_at(first[1], v));
-                          parent[std::max(a, b)] = std::min(a, b);
-                        }
+  mesh::Cut fans =
+      mesh::cut_along(knotted.triangles, vertices, mesh::edge_sides(knotted.triangles, vertices),
+                      [&](const mesh::EdgeSide* first, const mesh::EdgeSide*) {
+                        return flagged(knotted.flags, first->triangle, first->corner);
                       });
   CutSurface cut;
-  std::vector<Index> copy(parent.size(), -1);
   std::vector<Vec3> positions;
   std::vector<double> size;
-  std::vector<Triangle> cut_triangles(triangles.size());
-  for (std::size_t c = 0; c < parent.size(); ++c) {
-    const Index r = root(static_cast<Index>(c));
-    if (copy[r] < 0) {
-      const Index v = triangles[c / 3][c % 3];
-      copy[r] = static_cast<Index>(positions.size());
-      positions.push_back(knotted.vertices[v]);
-      if (!knotted.size.empty()) size.push_back(knotted.size[v]);
-      cut.knot.push_back(knotted.knot[v]);
-    }
-    cut_triangles[c / 3][c % 3] = copy[r];
+  for (const Index v : fans.original) {
+    positions.push_back(knotted.vertices[v]);
+    if (!knotted.size.empty()) size.push_back(knotted.size[v]);
+    cut.knot.push_back(knotted.knot[v]);
   }
-  cut.surface = mesh::make_surface(std::move(positions), std::move(cut_triangles));
+  cut.surface = mesh::make_surface(std::move(positions), std::move(fans.triangles));
   cut.surface.size = std::move(size);
   cut.facet = knotted.facet;
   return cut;
