@@ -20,16 +20,18 @@ struct KnottedSurface {
   std::vector<Index> facet;        ///< #F: the facet of the surface it is a part of
   std::vector<Index> knot;         ///< #V: -1 where there is none
   mesh::CurveNetwork network;
-  std::vector<Index> source;       ///< #knots: the vertex of the surface a knot is; -1 elsewhere
+  std::vector<Index> source;       ///< #knots: the vertex of the surface a knot is at; -1 elsewhere
 };
 
 /// Knots: every corner (fixed), and on every curve as many as make segments[c] segments of equal
-/// length in the sizing metric. A curve with as many segments as edges has its knots at its
-/// vertices, where `frozen` says so (#curves) fixed. Knots nearer to a vertex of the curve than
-/// `snap` (working units, times the local size) go there.
+/// length in the sizing metric; those nearer to a vertex of the curve than `snap` (working units,
+/// times the local size) go there. Where `frozen` says so (#curves, or empty) the knots are the
+/// curve's vertices instead, fixed. Of the surface's vertices the first `originals` are the
+/// input's; others are on edges of it and neither frozen nor a source.
 KnottedSurface insert_knots(const mesh::Surface& surface, const EdgeFlags& flags,
                             const FeatureGraph& graph, const std::vector<Index>& segments,
-                            const std::vector<char>& frozen, double snap);
+                            const std::vector<char>& frozen, double snap,
+                            Index originals);
 
 /// The surface cut open: a vertex on features once per sector between them.
 struct CutSurface {

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "features/facet_splitting.h"
 #include "features/knot_insertion.h"
+#include "features/narrow_places.h"
 #include "mesh/topology.h"
 #include "nonobtuse/error.h"
 #include "rdt/delaunay_flips.h"
@@ -20,6 +23,7 @@
 #include "remesh/size_field.h"
 #include "remesh/valence_optimization.h"
 #include "sizing/density.h"
+#include "sizing/gradation.h"
 
 namespace nonobtuse::pipeline {
 
@@ -29,6 +33,10 @@ namespace {
 const double kEdgeLength = std::sqrt(2 / std::sqrt(3.0));
 constexpr double kShortestCrease = 1.5;  // of an edge length; shorter ones that end freely go
 constexpr double kSnap = 0.02;           // of an edge length
+constexpr double kFeatureEdge = 0.45;    // of an edge length: longest piece of a feature edge while
+                                         // widths are measured
+constexpr double kLeastSize = 0.05;      // of an edge length
+constexpr int kSizeSteps = 8;
 
 // The input cut open, without knots: what the patches are.
 features::CutSurface patches_of(const mesh::Surface& surface, const features::EdgeFlags& flags) {
@@ -60,7 +68,7 @@ std::vector<features::PatchDemand> patch_demands(const mesh::Surface& cut,
 
 std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan,
                                                  const Components& patches) {
-  const mesh::Surface& surface = plan.input.surface;
+  const mesh::Surface& surface = plan.surface;
   const std::vector<mesh::EdgeSide> sides =
       mesh::edge_sides(surface.triangles, static_cast<Index>(surface.vertices.size()));
   std::map<std::pair<Index, Index>, int> between;  // curves with the same ends
@@ -81,7 +89,9 @@ std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan,
       d.least = between[ends]++ > 0 || free ? 2 : 1;
     }
     if (plan.frozen[c] != 0)
-      d.fixed = static_cast<Index>(curve.vertices.size()) - (curve.closed ? 0 : 1);
+      d.fixed = static_cast<Index>(std::count_if(curve.vertices.begin(), curve.vertices.end(),
+                                                 [&](Index v) { return v < plan.originals; })) -
+                (curve.closed ? 0 : 1);
     const auto edge = std::minmax({curve.vertices[0], curve.vertices[1]});
     auto side = std::lower_bound(sides.begin(), sides.end(), edge,
                                  [](const mesh::EdgeSide& s, const std::pair<Index, Index>& e) {
@@ -165,8 +175,8 @@ class FeaturedPart {
  private:
   void cut() {
     features::KnottedSurface knotted =
-        features::insert_knots(plan_.input.surface, plan_.flags, plan_.graph,
-                               plan_.balance.segments, plan_.frozen, kSnap * kEdgeLength);
+        features::insert_knots(plan_.surface, plan_.flags, plan_.graph, plan_.balance.segments,
+                               plan_.frozen, kSnap * kEdgeLength, plan_.originals);
     network_ = std::move(knotted.network);
     source_ = std::move(knotted.source);
     cut_ = features::cut_open(knotted);
@@ -260,25 +270,131 @@ class FeaturedPart {
   std::vector<Index> foot_;
 };
 
+class Planner {
+ public:
+  Planner(const Part& part, Index vertices, const RemeshOptions& options)
+      : vertices_(vertices), options_(options) {
+    plan_.input = normalize(part.mesh, vertices);
+    plan_.originals = static_cast<Index>(plan_.input.surface.vertices.size());
+    set_sizes(part.length, plan_.input);
+    plan_.surface = plan_.input.surface;
+    plan_.flags = part.features;
+  }
+
+  FeaturePlan run() {
+    features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
+    plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
+    if (plan_.graph.curves.empty()) return std::move(plan_);
+    plan_.graph = features::feature_graph(
+        plan_.surface, plan_.flags,
+        features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
+    find_frozen();
+    find_sizes();
+    balance();
+    return std::move(plan_);
+  }
+
+ private:
+  void find_frozen() {
+    plan_.frozen.clear();
+    for (const features::FeatureCurve& c : plan_.graph.curves)
+      plan_.frozen.push_back(c.boundary && options_.boundary == Boundary::Freeze ? 1 : 0);
+  }
+
+  void balance() {
+    const features::CutSurface cut = patches_of(plan_.surface, plan_.flags);
+    const Components patches = connected_components(cut.surface);
+    plan_.balance = features::balance_vertices(curve_demands(plan_, patches),
+                                               patch_demands(cut.surface, patches),
+                                               plan_.graph.corner_count(), vertices_);
+  }
+
+  // Edges shorter than asked for where features need it, and along frozen boundaries as long as
+  // they are there.
+  void find_sizes() {
+    const double largest =
+        plan_.surface.size.empty()
+            ? 1
+            : *std::max_element(plan_.surface.size.begin(), plan_.surface.size.end());
+    features::ResolvedSurface fine = features::resolve_surface(
+        plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
+    features::FeatureGraph graph =
+        features::feature_graph(fine.surface, fine.flags, plan_.graph.corner);
+    const std::vector<double> bounds =
+        features::narrow_places(fine.surface, fine.flags, graph, largest * kEdgeLength);
+    const std::vector<double> asked = fine.surface.size;
+    const auto local = [&](std::size_t v) { return asked.empty() ? 1.0 : asked[v]; };
+    const std::vector<double> given = frozen_lengths(fine.surface);
+    bool narrow = !given.empty();
+    for (std::size_t v = 0; v < bounds.size(); ++v)
+      narrow = narrow || bounds[v] < kEdgeLength * local(v);
+    if (!narrow) return;
+    plan_.surface = std::move(fine.surface);
+    plan_.flags = std::move(fine.flags);
+    plan_.graph = std::move(graph);
+    find_frozen();
+    // The bounds are lengths and stay; the rest grows until the whole asks for the right number.
+    double h = kEdgeLength;
+    for (int step = 0; step < kSizeSteps; ++step) {
+      std::vector<double>& size = plan_.surface.size;
+      size.resize(bounds.size());
+      for (std::size_t v = 0; v < size.size(); ++v)
+        size[v] = std::min(h * local(v), std::max(bounds[v], kLeastSize * kEdgeLength));
+      for (std::size_t v = 0; v < given.size(); ++v)
+        if (given[v] > 0) size[v] = given[v];
+      sizing::limit_gradation(plan_.surface, options_.gradation, size);
+      raise_to(given, size);
+      balance();
+      h *= plan_.balance.edge_length;
+      if (std::abs(plan_.balance.edge_length - 1) < 1e-3) break;
+    }
+    // In the units that the other stages expect.
+    std::vector<double> length = std::move(plan_.surface.size);
+    NormalizedInput sized{std::move(plan_.surface), {}};
+    set_sizes(length, sized);
+    plan_.surface = std::move(sized.surface);
+    balance();
+  }
+
+  // #V: the mean length of the frozen edges at a vertex, 0 elsewhere; empty if there are none.
+  [[nodiscard]] std::vector<double> frozen_lengths(const mesh::Surface& fine) const {
+    std::vector<double> lengths;
+    for (std::size_t c = 0; c < plan_.graph.curves.size(); ++c) {
+      if (plan_.frozen[c] == 0) continue;
+      lengths.resize(fine.vertices.size(), 0);
+      const std::vector<Index>& v = plan_.graph.curves[c].vertices;
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        const bool closed = plan_.graph.curves[c].closed;
+        const std::size_t before = i > 0 ? i - 1 : closed ? v.size() - 1 : i + 1;
+        const std::size_t after = i + 1 < v.size() ? i + 1 : closed ? 0 : i - 1;
+        const double mean = 0.5 * (distance(fine.vertices[v[before]], fine.vertices[v[i]]) +
+                                   distance(fine.vertices[v[after]], fine.vertices[v[i]]));
+        lengths[v[i]] = mean / features::kCurveSpacing;
+      }
+    }
+    return lengths;
+  }
+
+  // Sizes not below what the given ones, falling by the gradation with distance, leave.
+  void raise_to(const std::vector<double>& given, std::vector<double>& size) const {
+    if (given.empty()) return;
+    const double largest = *std::max_element(given.begin(), given.end());
+    std::vector<double> fall(size.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t v = 0; v < given.size(); ++v)
+      if (given[v] > 0) fall[v] = largest - given[v];
+    sizing::limit_gradation(plan_.surface, options_.gradation, fall);
+    for (std::size_t v = 0; v < size.size(); ++v) size[v] = std::max(size[v], largest - fall[v]);
+  }
+
+  Index vertices_;
+  const RemeshOptions& options_;
+  FeaturePlan plan_;
+};
+
 }  // namespace
 
 FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options) {
-  FeaturePlan plan{normalize(part.mesh, vertices), part.features, {}, {}, {}};
-  set_sizes(part.length, plan.input);
-  const mesh::Surface& surface = plan.input.surface;
-  features::prune_creases(surface, kShortestCrease * kEdgeLength, plan.flags);
-  plan.graph = features::feature_graph(surface, plan.flags, {});
-  plan.graph = features::feature_graph(
-      surface, plan.flags, features::sharp_turns(surface, plan.graph, kEdgeLength));
-  for (const features::FeatureCurve& c : plan.graph.curves)
-    plan.frozen.push_back(c.boundary && options.boundary == Boundary::Freeze ? 1 : 0);
-  if (plan.graph.curves.empty()) return plan;
-  const features::CutSurface cut = patches_of(surface, plan.flags);
-  const Components patches = connected_components(cut.surface);
-  plan.balance =
-      features::balance_vertices(curve_demands(plan, patches), patch_demands(cut.surface, patches),
-                                 plan.graph.corner_count(), vertices);
-  return plan;
+  return Planner(part, vertices, options).run();
 }
 
 GluedMesh remesh_features(const FeaturePlan& plan, Index vertices, const RemeshOptions& options,
