@@ -24,6 +24,15 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// What is known after one iteration of an optimiser.
+struct IterationRecord {
+  std::string stage;  ///< as in StageTime
+  int iteration = 0;  ///< from 0, the start, in this stage (several components: one after another)
+  double energy = 0;  ///< what the stage minimises, in units of area / #V = 1
+  Index obtuse = 0;   ///< triangles with an angle of 90 degrees and more
+  Index small = 0;    ///< triangles with an angle below 30 degrees
+};
+
 /// How the edges of the result realise the target edge lengths: actual length over target (the mean
 /// of that at both ends), over all edges. The target of a uniform mesh is the edge of a regular
 /// triangulation with as many vertices.
@@ -54,7 +63,8 @@ struct RemeshResult {
   /// the lower first, sorted).
   std::vector<std::array<Index, 2>> feature_edges;
   std::vector<NarrowCorner> narrow_corners;  ///< see there; triangles at them may miss the bounds
-  std::vector<StageTime> stages;       ///< in the order they ran; a stage may occur once
+  std::vector<StageTime> stages;             ///< in the order they ran; a stage may occur once
+  std::vector<IterationRecord> history;      ///< with RemeshOptions::history, in order; else empty
 };
 
 }  // namespace nonobtuse

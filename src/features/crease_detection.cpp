@@ -1,7 +1,6 @@
 #include "features/crease_detection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace nonobtuse::features {
@@ -10,17 +9,21 @@ namespace {
 
 // Angles between the normals of two facets, by their cosines.
 constexpr double kCos15 = 0.96592582628906829;
-constexpr double kCos20 = 0.93969262078590839;
 constexpr double kCos40 = 0.76604444311897804;
 constexpr double kCos60 = 0.5;
+constexpr double kDegree = 3.14159265358979323846 / 180;
 
 // A smooth surface has several times as many edges of 20 to 40 degrees as above; one with creases
 // has many fewer.
 constexpr double kMostBlunt = 0.75;
+// Or there is some range of angles of this half-width in degrees with hardly any edges.
+constexpr double kHalfGap = 7.5;
+constexpr double kMostInGap = 0.2;
 // A regular polyhedron of blunt edges, such as an icosahedron, is a coarse sphere.
 constexpr double kMostSharp = 0.8;
 // A blunter edge continues a crease if it turns this many times as much as the edges beside it.
 constexpr double kContrast = 3;
+constexpr double kChamferContrast = 2;
 constexpr double kCosStraight = 0.8;  // and lies nearly in the direction of the crease
 
 struct Side {
@@ -33,10 +36,19 @@ class Detector {
   Detector(const mesh::Surface& surface, EdgeFlags& flags) : surface_(surface), flags_(flags) {}
 
   void run() {
-    if (smooth()) return;
-    for_each_edge([&](Side e, double cosine) {
-      if (cosine <= kCos40) flag(e);
+    const double sharp = sharp_cosine();
+    for_each_edge([&](Side e, double c) {
+      if (c <= std::min(sharp, kCos60)) flag(e);
     });
+    // Of edges that turn by less than 60 degrees those of a prism's round side are no creases;
+    // one edge of a chamfer has a flat side.
+    std::vector<Side> fine;
+    for_each_edge([&](Side e, double c) {
+      if (c <= sharp && c > kCos60 &&
+          std::acos(c) >= kChamferContrast * std::min(turn_beside(e, e), turn_beside(e, twin(e))))
+        fine.push_back(e);
+    });
+    for (const Side e : fine) flag(e);
     grow();
     drop_single_edges();
   }
@@ -56,18 +68,27 @@ class Detector {
         if (surface_.adjacent[f][k] > f) visit(Side{f, k}, cosine({f, k}));
   }
 
-  [[nodiscard]] bool smooth() const {
-    Index all = 0, sharp = 0, blunt = 0, very_sharp = 0;
-    for_each_edge([&](Side, double c) {
-      ++all;
-      if (c <= kCos40)
-        ++sharp;
-      else if (c <= kCos20)
-        ++blunt;
-      if (c <= kCos60) ++very_sharp;
-    });
-    if (sharp == 0 || blunt > kMostBlunt * sharp) return true;
-    return sharp > kMostSharp * all && 2 * very_sharp < sharp;
+  // The cosine up to which edges are sharp; -2 if none are. On a smooth surface the edges get
+  // gradually fewer with their angle; where there are creases, they leave a gap.
+  [[nodiscard]] double sharp_cosine() const {
+    std::vector<double> cosines;
+    for_each_edge([&](Side, double c) { cosines.push_back(c); });
+    std::sort(cosines.begin(), cosines.end());
+    const auto from = [&](double degrees) {  // edges that turn by as much or more
+      const double c = std::cos(degrees * kDegree);
+      return static_cast<double>(std::upper_bound(cosines.begin(), cosines.end(), c) -
+                                 cosines.begin());
+    };
+    const auto all = static_cast<double>(cosines.size());
+    const double sharp = from(40);
+    if (sharp == 0 || (sharp > kMostSharp * all && 2 * from(60) < sharp)) return -2;
+    if (from(20) - sharp <= kMostBlunt * sharp) return kCos40;
+    for (double gap = 35; gap < 60; gap += 2.5) {
+      const double above = from(gap + kHalfGap);
+      if (above > 0 && from(gap - kHalfGap) - above <= kMostInGap * above)
+        return std::cos((gap + kHalfGap) * kDegree);
+    }
+    return -2;
   }
 
   [[nodiscard]] Side twin(Side e) const {
@@ -91,25 +112,22 @@ class Detector {
   }
 
   // The most that the normal turns at edges beside e, as far as they run along it: those of the
-  // two rings of facets on either side that do not touch e and are not creases.
-  [[nodiscard]] double turn_beside(Side e) const {
+  // two rings of facets behind `s`, one side of it, that do not touch e and are not creases.
+  [[nodiscard]] double turn_beside(Side e, Side s) const {
     const Vec3 d = direction(e);
     const Index a = tail(e);
     const Index b = head(e);
     double most = 0;
-    std::array<Side, 2> start{e, twin(e)};
-    for (const Side s : start) {
-      if (s.facet < 0) continue;
-      for (const int j : {mesh::next(s.k), mesh::previous(s.k)}) {
-        const Side across = twin({s.facet, j});
-        if (across.facet < 0 || flagged(flags_, s.facet, j)) continue;
-        for (const int l : {mesh::next(across.k), mesh::previous(across.k)}) {
-          const Side f{across.facet, l};
-          if (flagged(flags_, f.facet, f.k) || tail(f) == a || tail(f) == b || head(f) == a ||
-              head(f) == b)
-            continue;
-          most = std::max(most, std::abs(dot(direction(f), d)) * std::acos(std::min(1.0, cosine(f))));
-        }
+    if (s.facet < 0) return most;
+    for (const int j : {mesh::next(s.k), mesh::previous(s.k)}) {
+      const Side across = twin({s.facet, j});
+      if (across.facet < 0 || flagged(flags_, s.facet, j)) continue;
+      for (const int l : {mesh::next(across.k), mesh::previous(across.k)}) {
+        const Side f{across.facet, l};
+        if (flagged(flags_, f.facet, f.k) || tail(f) == a || tail(f) == b || head(f) == a ||
+            head(f) == b)
+          continue;
+        most = std::max(most, std::abs(dot(direction(f), d)) * std::acos(std::min(1.0, cosine(f))));
       }
     }
     return most;
@@ -138,7 +156,9 @@ class Detector {
       const Index v = ends.back();
       ends.pop_back();
       if (degree[v] != 1) continue;
-      const auto outwards = [&](Side e) { return tail(e) == v ? direction(e) : -1.0 * direction(e); };
+      const auto outwards = [&](Side e) {
+        return tail(e) == v ? direction(e) : -1.0 * direction(e);
+      };
       const auto last = std::find_if(at[v].begin(), at[v].end(), [&](Side e) {
         return flagged(flags_, e.facet, e.k) || surface_.adjacent[e.facet][e.k] < 0;
       });
@@ -148,7 +168,8 @@ class Detector {
       for (const Side& e : at[v]) {
         if (flagged(flags_, e.facet, e.k) || surface_.adjacent[e.facet][e.k] < 0) continue;
         const double straight = dot(outwards(e), onwards);
-        if (straight <= straightest || std::acos(cosine(e)) < kContrast * turn_beside(e)) continue;
+        const double beside = std::max(turn_beside(e, e), turn_beside(e, twin(e)));
+        if (straight <= straightest || std::acos(cosine(e)) < kContrast * beside) continue;
         straightest = straight;
         best = &e;
       }
@@ -165,8 +186,7 @@ class Detector {
     std::vector<Index> degree(surface_.vertices.size(), 0);
     for (Index f = 0; f < static_cast<Index>(surface_.triangles.size()); ++f)
       for (int k = 0; k < 3; ++k)
-        if (surface_.adjacent[f][k] < f &&
-            (flagged(flags_, f, k) || surface_.adjacent[f][k] < 0)) {
+        if (surface_.adjacent[f][k] < f && (flagged(flags_, f, k) || surface_.adjacent[f][k] < 0)) {
           ++degree[tail({f, k})];
           ++degree[head({f, k})];
         }

@@ -41,13 +41,21 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
 /// Evaluations between two looks at the energy by which a descent ends early.
 inline constexpr int kStride = 5;
 
+/// Where a descent stands.
+struct DescentState {
+  int evaluations = 0;  ///< made so far
+  double energy = 0;    ///< least so far
+  std::span<const Vec3> sites;
+};
+
 /// Minimises the CVT energy by L-BFGS (m = 7, preconditioned by the cells' masses) with at most
 /// `evaluations` evaluations, or until `kStride` of them gain less than `tolerance` (relative); the
-/// first step is Lloyd's. `sites` become the best found. `callback` (may be empty) hears the number
-/// of each evaluation; returning false stops. Sites marked in `fixed` (#X, or empty) stay where they
-/// are. Returns the energy.
+/// first step is Lloyd's. `sites` become the best found. `callback` (may be empty) hears of each
+/// evaluation before it is made; returning false stops. Sites marked in `fixed`
+/// (#X, or empty) stay where they are. Returns the energy.
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
                     double tolerance, const parallel::Workers& workers,
-                    const std::function<bool(int)>& callback, std::span<const char> fixed = {});
+                    const std::function<bool(const DescentState&)>& callback,
+                    std::span<const char> fixed = {});
 
 }  // namespace nonobtuse::pipeline

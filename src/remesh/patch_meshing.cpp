@@ -95,11 +95,11 @@ class PatchCvt {
   }
 
   void descend(Sites& sites, int iterations, double tolerance) {
-    rvd::CellEvaluator evaluator(patch_.surface, static_cast<Index>(sites.points.size()),
-                                 workers_);
+    rvd::CellEvaluator evaluator(patch_.surface, static_cast<Index>(sites.points.size()), workers_);
     if (!monitor_.cancelled())
-      minimize_cvt(evaluator, sites.points, iterations, tolerance, workers_,
-                   [&](int) { return !monitor_.cancelled(); }, sites.fixed);
+      minimize_cvt(
+          evaluator, sites.points, iterations, tolerance, workers_,
+          [&](const DescentState&) { return !monitor_.cancelled(); }, sites.fixed);
     rvd::CellIntegrals cells;  // adjacency of the sites kept, whatever was tried last
     evaluator.evaluate(sites.points, cells);
     adjacent_ = evaluator.adjacent_cells();
@@ -143,7 +143,7 @@ class PatchCvt {
   std::uint64_t seed_;
   const parallel::Workers& workers_;
   parallel::Monitor& monitor_;
-  std::vector<Vec3> knots_;   // each once, however many copies the patch has
+  std::vector<Vec3> knots_;  // each once, however many copies the patch has
   std::vector<char> coarse_;
   std::vector<std::array<Index, 2>> adjacent_;
 };
