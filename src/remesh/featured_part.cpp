@@ -109,7 +109,9 @@ std::vector<char> coarse_knots(const mesh::CurveNetwork& network) {
   std::vector<Index> seen(network.curves.size(), 0);
   std::vector<char> coarse;
   for (const mesh::Knot& k : network.knots)
-    coarse.push_back(k.curve < 0 || (seen[k.curve]++ + (network.curves[k.curve].closed ? 0 : 1)) % 2 == 0 ? 1 : 0);
+    coarse.push_back(
+        k.curve < 0 || (seen[k.curve]++ + (network.curves[k.curve].closed ? 0 : 1)) % 2 == 0 ? 1
+                                                                                             : 0);
   return coarse;
 }
 
@@ -163,10 +165,12 @@ class FeaturedPart {
     clock_.run("cvt", 0.02, 0.5, [&] { mesh_patches(); });
     reduce();
     if (!monitor.cancelled()) {
-      clock_.run("valence", 0.5, 0.55,
-                 [&] { return optimize_valence(cut_.surface, mesh_, workers_, monitor); });
+      clock_.run("valence", 0.5, 0.55, [&] {
+        return optimize_valence(cut_.surface, mesh_, workers_, monitor, &network_);
+      });
       clock_.run("refinement", 0.55, 1, [&] {
-        return refine(cut_.surface, mesh_, refinement_options(options_), workers_, monitor);
+        return refine(cut_.surface, mesh_, refinement_options(options_), workers_, monitor,
+                      &network_);
       });
     }
     return glue();
@@ -185,8 +189,7 @@ class FeaturedPart {
   // Every patch on its own: sites of one can then never own a part of another.
   void mesh_patches() {
     const Components components = connected_components(cut_.surface);
-    const std::vector<Patch> patches =
-        cut_patches(cut_, components, plan_.balance.interior);
+    const std::vector<Patch> patches = cut_patches(cut_, components, plan_.balance.interior);
     const std::vector<char> coarse = coarse_knots(network_);
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -218,10 +221,11 @@ class FeaturedPart {
     rdt::delaunay_flips(cut_.surface, foot_, mesh_);
     const Index left = glued_count(mesh_, network_.knots.size());
     if (left > vertices_)
-      throw TooFewVertices(fmt::format("The features and the topology of the surface need more than "
-                                       "the {} vertices asked for: {} were reached.",
-                                       vertices_, left),
-                           left);
+      throw TooFewVertices(
+          fmt::format("The features and the topology of the surface need more than "
+                      "the {} vertices asked for: {} were reached.",
+                      vertices_, left),
+          left);
   }
 
   GluedMesh glue() const {
@@ -238,7 +242,9 @@ class FeaturedPart {
       number[v] = static_cast<Index>(glued.mesh.vertices.size());
       if (k >= 0) of_knot[k] = number[v];
       glued.mesh.vertices.push_back(mesh_.positions[v]);
-      glued.source.push_back(k >= 0 && network_.knots[k].curve < 0 ? source_[k] : -1);
+      // Knots that refinement has added come after those with a source.
+      const bool given = k >= 0 && k < static_cast<Index>(source_.size());
+      glued.source.push_back(given && network_.knots[k].curve < 0 ? source_[k] : -1);
     }
     for (Index t = 0; t < mesh_.triangle_capacity(); ++t) {
       if (!mesh_.alive_triangle(t)) continue;
@@ -252,9 +258,8 @@ class FeaturedPart {
       }
     }
     std::sort(glued.feature_edges.begin(), glued.feature_edges.end());
-    glued.feature_edges.erase(
-        std::unique(glued.feature_edges.begin(), glued.feature_edges.end()),
-        glued.feature_edges.end());
+    glued.feature_edges.erase(std::unique(glued.feature_edges.begin(), glued.feature_edges.end()),
+                              glued.feature_edges.end());
     return glued;
   }
 
@@ -286,8 +291,7 @@ class Planner {
     plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
     if (plan_.graph.curves.empty()) return std::move(plan_);
     plan_.graph = features::feature_graph(
-        plan_.surface, plan_.flags,
-        features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
+        plan_.surface, plan_.flags, features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
     find_frozen();
     find_sizes();
     balance();
