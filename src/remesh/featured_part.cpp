@@ -242,7 +242,9 @@ class FeaturedPart {
       number[v] = static_cast<Index>(glued.mesh.vertices.size());
       if (k >= 0) of_knot[k] = number[v];
       glued.mesh.vertices.push_back(mesh_.positions[v]);
-      glued.source.push_back(k >= 0 && network_.knots[k].curve < 0 ? source_[k] : -1);
+      // Knots that refinement has added come after those with a source.
+      const bool given = k >= 0 && k < static_cast<Index>(source_.size());
+      glued.source.push_back(given && network_.knots[k].curve < 0 ? source_[k] : -1);
     }
     for (Index t = 0; t < mesh_.triangle_capacity(); ++t) {
       if (!mesh_.alive_triangle(t)) continue;
