@@ -20,9 +20,10 @@ struct RemeshCommand {
   std::string input;
   OutputOptions output;
   RemeshOptions options;
-  std::string report;        ///< .html or .json; empty: none
-  std::string command_line;  ///< as given, to do it again
-  std::string sizes;         ///< file of target edge lengths, with Sizing::Given
+  std::string report;         ///< .html or .json; empty: none
+  std::string command_line;   ///< as given, to do it again
+  std::string sizes;          ///< file of target edge lengths, with Sizing::Given
+  std::string feature_edges;  ///< file of pairs of vertices, with Features::Given
   int threads = 0;
   bool quiet = false;        ///< print nothing but errors
   bool progress = false;     ///< report progress even if stderr is no terminal

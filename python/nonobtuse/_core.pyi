@@ -72,3 +72,6 @@ def cvt_energy(
 def local_feature_size(
     vertices: _Points, faces: _Indices, samples: int, threads: int, /
 ) -> _Points: ...
+def detect_features(
+    vertices: _Points, faces: _Indices, angle: float | None, /
+) -> _Indices: ...

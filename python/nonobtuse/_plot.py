@@ -53,7 +53,8 @@ def plot(
         by how many neighbours they have; "plain"; or an array with a number for every vertex or
         face of the one mesh given.
     path: of the PNG; without, a window is opened and the call lasts until it is closed.
-    features: (e, 2) pairs of vertices, drawn as red lines on the one mesh given.
+    features: (e, 2) pairs of vertices, drawn as red lines on the one mesh given; those of a `Result`
+        are drawn anyway.
     size: pixels of each picture. view: direction from which the mesh is seen. up: what is up.
     """
     pyvista: Any = importlib.import_module("pyvista")
@@ -131,6 +132,8 @@ def _draw(
         plotter.add_mesh(surface, scalars="rgb", rgb=True, **light)
     if len(lines):
         _add_lines(plotter, pyvista, points + lift, lines, _LINES, 1.0)
+    if features is None and isinstance(given, Result):
+        features = given.feature_edges
     if features is not None:
         pairs = np.asarray(features, np.int64).reshape(-1, 2)
         if len(pairs):

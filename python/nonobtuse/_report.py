@@ -23,7 +23,12 @@ _DISTANCE_LIMIT = 400_000  # triangles in all, beyond which distances would take
 
 
 def full_report(
-    report: dict[str, Any], source: Mesh, mesh: Mesh, goal: Certificate, promise: Certificate
+    report: dict[str, Any],
+    source: Mesh,
+    mesh: Mesh,
+    goal: Certificate,
+    promise: Certificate,
+    feature_edges: NDArray[np.int32],
 ) -> dict[str, Any]:
     """What docs/json.md calls the report: figures, certificate, places and both meshes."""
     full = dict(report)
@@ -39,6 +44,7 @@ def full_report(
         near["after"] = _quality.vertex_distances(*mesh, against=source)
     full["before_topology"] = _core.topology(source.vertices, source.faces)
     full["after_topology"] = _core.topology(mesh.vertices, mesh.faces)
+    full["feature_edges"] = feature_edges.tolist()
     lows, highs = source.vertices.min(axis=0), source.vertices.max(axis=0)
     origin = lows / 2 + highs / 2
     full["meshes"] = {

@@ -47,8 +47,10 @@ class Report(dict[str, Any]):
 
         _report.save(path, self._full())
 
-    #: (source, mesh, goal, certificate) of the call
-    _outcome: tuple[Mesh, Mesh, Certificate, Certificate] | None = None
+    #: (source, mesh, goal, certificate, feature edges) of the call
+    _outcome: (
+        tuple[Mesh, Mesh, Certificate, Certificate, NDArray[np.int32]] | None
+    ) = None
 
     def _full(self) -> dict[str, Any]:
         from . import _report
@@ -125,6 +127,7 @@ class Result:
         "barycentric",
         "certificate",
         "faces",
+        "feature_edges",
         "goal",
         "report",
         "source",
@@ -141,6 +144,8 @@ class Result:
     """(n,): the face of ``source`` nearest to each vertex."""
     barycentric: NDArray[np.float64]
     """(n, 3): coordinates of the nearest point in that face."""
+    feature_edges: NDArray[np.int32]
+    """(k, 2): edges of the result that make up the creases and boundaries of the input."""
     source: Mesh
     """The mesh that ``source_triangle`` speaks of: the arrays given, or the repaired input."""
     status: Status

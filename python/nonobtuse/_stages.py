@@ -126,3 +126,20 @@ def local_feature_size(
         count,
         _arrays.whole_number(threads, "threads"),
     )
+
+
+def detect_features(
+    vertices: ArrayLike, faces: ArrayLike, *, angle: float | None = None
+) -> NDArray[np.int32]:
+    """(e, 2): the feature edges of a surface, boundaries among them, as pairs of vertices, the lower
+    first, sorted; what `remesh` keeps as edges (but for creases too short for its edge length).
+
+    angle: edges at which the normal turns by that many degrees or more; without, creases are told
+    from the rest by dihedral angle with hysteresis, and a smooth surface, coarse or noisy, has none.
+    The mesh must be clean (see `clean`).
+    """
+    if angle is not None:
+        angle = _arrays.number(angle, "angle")
+        if not 0 < angle <= 180:
+            raise InvalidInput(f"angle must be above 0 and at most 180 degrees, not {angle}.")
+    return _core.detect_features(_arrays.points(vertices), _arrays.faces(faces), angle)

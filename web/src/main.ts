@@ -105,6 +105,11 @@ function extremes(values: Float32Array, k: number): number[] {
   return order.sort((a, b) => values[b] - values[a]).slice(0, k);
 }
 
+// A triangle at a vertex.
+function triangleAt(mesh: Mesh, vertex: number): number {
+  return Math.floor(Math.max(0, mesh.triangles.indexOf(vertex)) / 3);
+}
+
 function listPlaces(report: Report, before: Mesh, after: Mesh): [string, Listed[]][] {
   const groups: [string, Listed[]][] = [];
   const named = (places: Place[]) =>
@@ -128,12 +133,20 @@ function listPlaces(report: Report, before: Mesh, after: Mesh): [string, Listed[
     groups.push(["Result, nearest to the upper bound", found("after", after, extremes(after.largest, 5))]);
     groups.push(["Result, nearest to the lower bound", found("after", after, extremes(after.smallest.map((x) => -x), 5))]);
   }
+  if (report.narrow_corners?.length)
+    groups.push([
+      "Corners of the input below 30\u00b0",
+      report.narrow_corners.map((c): Listed => ({
+        which: "after",
+        triangle: triangleAt(after, c.vertex),
+        text: `vertex ${c.vertex}: ${degrees(c.input_angle)}, in the result ${degrees(c.reached_angle)}`,
+      })),
+    ]);
   if (after.distance && before.distance && report.distance) {
     const percent = (d: number) => `${((100 * d) / report.distance!.diagonal).toFixed(3)} % of the diagonal`;
     const far = (which: "before" | "after", mesh: Mesh): Listed => {
       const v = extremes(mesh.distance!, 1)[0];
-      const corner = mesh.triangles.indexOf(v);
-      return { which, triangle: Math.floor(Math.max(0, corner) / 3), text: `${which === "after" ? "result" : "input"} vertex ${v}: ${percent(mesh.distance![v])}` };
+      return { which, triangle: triangleAt(mesh, v), text: `${which === "after" ? "result" : "input"} vertex ${v}: ${percent(mesh.distance![v])}` };
     };
     groups.push(["Farthest from the other surface", [far("after", after), far("before", before)]]);
   }
@@ -269,7 +282,7 @@ function start(): void {
   by("after-caption").textContent = `after: ${whole(after.triangleCount)} triangles`;
 
   const canvases = ["before", "after"].map((id) => by(id) as HTMLCanvasElement);
-  const views = new Views(canvases, [before, after]);
+  const views = new Views(canvases, [before, after], [[], report.feature_edges ?? []]);
   const diagonal = report.distance?.diagonal ?? 1;
   const all = modes(before, after, report.goal, diagonal);
   const choose = (mode: Mode) => {

@@ -82,6 +82,9 @@ export interface Report {
   self_intersections?: number;
   flipped?: number;
   size_ratio: { median: number; percentile_5: number; percentile_95: number };
+  /** Of the result: creases and boundaries of the input. */
+  feature_edges?: [number, number][];
+  narrow_corners?: { vertex: number; input_angle: number; reached_angle: number }[];
   goal: Certificate;
   promise: Certificate;
   distance?: { diagonal: number; hausdorff: number; rms: number };

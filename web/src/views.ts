@@ -5,6 +5,8 @@ import {
   Color,
   DoubleSide,
   GLSL3,
+  LineBasicMaterial,
+  LineSegments,
   Mesh as Drawn,
   PerspectiveCamera,
   Raycaster,
@@ -64,6 +66,7 @@ class View {
   constructor(
     readonly canvas: HTMLCanvasElement,
     readonly mesh: Mesh,
+    features: [number, number][],
   ) {
     // Kept, so that a picture can be taken at any time.
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -73,6 +76,9 @@ class View {
       fragmentShader: FRAGMENT,
       glslVersion: GLSL3,
       side: DoubleSide,
+      polygonOffset: true, // behind the lines of features
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 2,
       uniforms: { patches: { value: false }, edges: { value: 1 } },
     });
     const corners = new Float32Array(3 * mesh.triangles.length);
@@ -82,6 +88,15 @@ class View {
     this.drawn = new Drawn(this.geometry, this.material);
     this.drawn.frustumCulled = false;
     this.scene.add(this.drawn);
+    if (features.length > 0) {
+      const ends = new Float32Array(6 * features.length);
+      features.flat().forEach((v, i) => ends.set(mesh.positions.subarray(3 * v, 3 * v + 3), 3 * i));
+      const lines = new BufferGeometry();
+      lines.setAttribute("position", new BufferAttribute(ends, 3));
+      const segments = new LineSegments(lines, new LineBasicMaterial({ color: 0xc0202a }));
+      segments.frustumCulled = false;
+      this.scene.add(segments);
+    }
   }
 
   show(coloring: Coloring): void {
@@ -131,8 +146,9 @@ export class Views {
   /** Whether the camera is on its way. */
   flying = false;
 
-  constructor(canvases: HTMLCanvasElement[], meshes: Mesh[]) {
-    this.views = canvases.map((canvas, i) => new View(canvas, meshes[i]));
+  /** features: of each mesh, pairs of vertices to draw lines between. */
+  constructor(canvases: HTMLCanvasElement[], meshes: Mesh[], features: [number, number][][]) {
+    this.views = canvases.map((canvas, i) => new View(canvas, meshes[i], features[i]));
     let radius = 0;
     for (const mesh of meshes)
       for (let i = 0; i < mesh.positions.length; i += 3)
