@@ -109,7 +109,9 @@ std::vector<char> coarse_knots(const mesh::CurveNetwork& network) {
   std::vector<Index> seen(network.curves.size(), 0);
   std::vector<char> coarse;
   for (const mesh::Knot& k : network.knots)
-    coarse.push_back(k.curve < 0 || (seen[k.curve]++ + (network.curves[k.curve].closed ? 0 : 1)) % 2 == 0 ? 1 : 0);
+    coarse.push_back(
+        k.curve < 0 || (seen[k.curve]++ + (network.curves[k.curve].closed ? 0 : 1)) % 2 == 0 ? 1
+                                                                                             : 0);
   return coarse;
 }
 
@@ -185,8 +187,7 @@ class FeaturedPart {
   // Every patch on its own: sites of one can then never own a part of another.
   void mesh_patches() {
     const Components components = connected_components(cut_.surface);
-    const std::vector<Patch> patches =
-        cut_patches(cut_, components, plan_.balance.interior);
+    const std::vector<Patch> patches = cut_patches(cut_, components, plan_.balance.interior);
     const std::vector<char> coarse = coarse_knots(network_);
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -218,10 +219,11 @@ class FeaturedPart {
     rdt::delaunay_flips(cut_.surface, foot_, mesh_);
     const Index left = glued_count(mesh_, network_.knots.size());
     if (left > vertices_)
-      throw TooFewVertices(fmt::format("The features and the topology of the surface need more than "
-                                       "the {} vertices asked for: {} were reached.",
-                                       vertices_, left),
-                           left);
+      throw TooFewVertices(
+          fmt::format("The features and the topology of the surface need more than "
+                      "the {} vertices asked for: {} were reached.",
+                      vertices_, left),
+          left);
   }
 
   GluedMesh glue() const {
@@ -252,9 +254,8 @@ class FeaturedPart {
       }
     }
     std::sort(glued.feature_edges.begin(), glued.feature_edges.end());
-    glued.feature_edges.erase(
-        std::unique(glued.feature_edges.begin(), glued.feature_edges.end()),
-        glued.feature_edges.end());
+    glued.feature_edges.erase(std::unique(glued.feature_edges.begin(), glued.feature_edges.end()),
+                              glued.feature_edges.end());
     return glued;
   }
 
@@ -273,7 +274,7 @@ class FeaturedPart {
 class Planner {
  public:
   Planner(const Part& part, Index vertices, const RemeshOptions& options)
-      : vertices_(vertices), options_(options) {
+      : vertices_(vertices), options_(options), points_(part.points) {
     plan_.input = normalize(part.mesh, vertices);
     plan_.originals = static_cast<Index>(plan_.input.surface.vertices.size());
     set_sizes(part.length, plan_.input);
@@ -284,10 +285,9 @@ class Planner {
   FeaturePlan run() {
     features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
     plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
-    if (plan_.graph.curves.empty()) return std::move(plan_);
-    plan_.graph = features::feature_graph(
-        plan_.surface, plan_.flags,
-        features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
+    if (plan_.graph.curves.empty() && points_.empty()) return std::move(plan_);
+    plan_.graph = graph(plan_.surface, plan_.flags,
+                        features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
     find_frozen();
     find_sizes();
     balance();
@@ -295,6 +295,17 @@ class Planner {
   }
 
  private:
+  // With the points in which patches touch among its corners.
+  [[nodiscard]] features::FeatureGraph graph(const mesh::Surface& surface,
+                                             const features::EdgeFlags& flags,
+                                             std::vector<char> corner) const {
+    corner.resize(surface.vertices.size(), 0);
+    for (const Index v : points_) corner[v] = 1;
+    features::FeatureGraph result = features::feature_graph(surface, flags, std::move(corner));
+    for (const Index v : points_) result.corner[v] = 1;
+    return result;
+  }
+
   void find_frozen() {
     plan_.frozen.clear();
     for (const features::FeatureCurve& c : plan_.graph.curves)
@@ -318,8 +329,7 @@ class Planner {
             : *std::max_element(plan_.surface.size.begin(), plan_.surface.size.end());
     features::ResolvedSurface fine = features::resolve_surface(
         plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
-    features::FeatureGraph graph =
-        features::feature_graph(fine.surface, fine.flags, plan_.graph.corner);
+    features::FeatureGraph graph = this->graph(fine.surface, fine.flags, plan_.graph.corner);
     const std::vector<double> bounds =
         features::narrow_places(fine.surface, fine.flags, graph, largest * kEdgeLength);
     const std::vector<double> asked = fine.surface.size;
@@ -388,6 +398,7 @@ class Planner {
 
   Index vertices_;
   const RemeshOptions& options_;
+  const std::vector<Index>& points_;
   FeaturePlan plan_;
 };
 
