@@ -165,10 +165,12 @@ class FeaturedPart {
     clock_.run("cvt", 0.02, 0.5, [&] { mesh_patches(); });
     reduce();
     if (!monitor.cancelled()) {
-      clock_.run("valence", 0.5, 0.55,
-                 [&] { return optimize_valence(cut_.surface, mesh_, workers_, monitor); });
+      clock_.run("valence", 0.5, 0.55, [&] {
+        return optimize_valence(cut_.surface, mesh_, workers_, monitor, &network_);
+      });
       clock_.run("refinement", 0.55, 1, [&] {
-        return refine(cut_.surface, mesh_, refinement_options(options_), workers_, monitor);
+        return refine(cut_.surface, mesh_, refinement_options(options_), workers_, monitor,
+                      &network_);
       });
     }
     return glue();
@@ -240,7 +242,9 @@ class FeaturedPart {
       number[v] = static_cast<Index>(glued.mesh.vertices.size());
       if (k >= 0) of_knot[k] = number[v];
       glued.mesh.vertices.push_back(mesh_.positions[v]);
-      glued.source.push_back(k >= 0 && network_.knots[k].curve < 0 ? source_[k] : -1);
+      // Knots that refinement has added come after those with a source.
+      const bool given = k >= 0 && k < static_cast<Index>(source_.size());
+      glued.source.push_back(given && network_.knots[k].curve < 0 ? source_[k] : -1);
     }
     for (Index t = 0; t < mesh_.triangle_capacity(); ++t) {
       if (!mesh_.alive_triangle(t)) continue;
