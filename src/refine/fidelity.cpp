@@ -201,50 +201,6 @@ void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, 
   }
 }
 
-Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                                       double growth, const parallel::Workers& workers) {
-  // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
-  std::vector<Index> start(surface().vertices.size(), -1);
-  std::vector<Sample> candidates;
-  std::vector<Index> nearest;
-  Index count = 0;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
-    for (Index s = first[t]; s >= 0; s = samples[s].next)
-      if (samples[s].vertex >= 0) start[samples[s].vertex] = -2;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
-    for (Index s = first[t]; s >= 0; s = samples[s].next) {
-      Sample& sample = samples[s];
-      if (sample.vertex >= 0) {
-        const std::array<Vec3, 3> p = corners(mesh, t);
-        const double d = TriangleFrame(p[0], p[1], p[2]).closest(sample.point).squared_distance;
-        if (d > far * far) sample.weight *= growth, ++count;
-        continue;
-      }
-      for (Index v : surface().triangles[sample.facet]) {
-        if (start[v] != -1) continue;
-        start[v] = t;
-        const double area = surface().size.empty() ? 1 : surface().size[v] * surface().size[v];
-        candidates.push_back({surface().vertices[v],
-                              weight * area * TargetSize::fidelity_factor(area), sample.facet, v});
-        nearest.push_back(t);
-      }
-    }
-  std::vector<char> is_far(candidates.size());
-  workers.for_each(candidates.size(), kChunk, [&](std::size_t i) {
-    ClosestPoint closest;
-    nearest[i] = walk_to_nearest(mesh, nearest[i], candidates[i], closest);
-    is_far[i] = closest.squared_distance > far * far;
-  });
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!is_far[i]) continue;
-    ++count;
-    candidates[i].next = first[nearest[i]];
-    first[nearest[i]] = static_cast<Index>(samples.size());
-    samples.push_back(candidates[i]);
-  }
-  return count;
-}
-
 // Counting sort: the samples of a triangle lie together in memory, in a fixed order.
 void Fidelity::sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles) {
   std::vector<Index> start(triangles + 1, 0);

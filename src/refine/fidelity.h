@@ -24,7 +24,7 @@ struct Sample {
   Vec3 point;
   double weight = 0;  ///< area it stands for
   Index facet = -1;   ///< of M
-  Index vertex = -1;  ///< of M, if it is one
+  Index ridge = -1;   ///< number among the points of M's vertices and edges, if it is one
   Index next = -1;    ///< next sample of the same triangle of T, -1 at the end
 };
 
@@ -84,11 +84,13 @@ class Fidelity {
   /// Points of T that stick out: multiplies by `growth` the weights of vertices and midpoints
   /// farther than `far` from their tangent planes.
   void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);
-  /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
-  /// samples of the given weight; of those added before, multiplies the weights by `growth` where
-  /// they are still far. Returns how many are far.
-  Index emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                               double growth, const parallel::Workers& workers);
+  /// Vertices and sharp edges of M, which samples by area miss: adds points of them farther than
+  /// `far` from T as samples of the given weight; of those added before, multiplies the weights by
+  /// `growth` where they are still far. With `triangles`, only where the samples of these lie.
+  /// Returns how many are far.
+  Index emphasize_far_ridges(const mesh::EditableMesh& mesh, double far, double weight,
+                             double growth, const parallel::Workers& workers,
+                             const std::vector<Index>* triangles = nullptr);
   /// Gives the samples of these triangles to the nearest of them (after a local edit).
   void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Feet, tangent planes and weights of all vertices and midpoints: by search where there is none

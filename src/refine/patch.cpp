@@ -123,9 +123,9 @@ Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit)
 }
 
 bool PatchScore::operator<(const PatchScore& other) const {
-  return std::tie(folded, bad_valence, outside_promise, outside_goal, energy) <
+  return std::tie(folded, bad_valence, outside_promise, outside_goal, distance, energy) <
          std::tie(other.folded, other.bad_valence, other.outside_promise, other.outside_goal,
-                  other.energy);
+                  other.distance, other.energy);
 }
 
 int valence_defect(int valence, bool boundary) {

@@ -1,18 +1,31 @@
 #include "refine/trials.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "refine/largest_distance.h"
 #include "refine/relaxation.h"
 
 namespace nonobtuse::refine {
 namespace {
 
-constexpr std::ptrdiff_t kFinalists = 4;
+static int env(const char*n,int d){auto p=getenv(n);return p?atoi(p):d;}
+const std::ptrdiff_t kFinalists = env("FIN",4);
+// Against large distances: points at this part of the largest get more weight, every few passes.
+constexpr double kNearLargest = 0.75;
+constexpr double kGrowth = 1.6;
+constexpr double kHingeGrowth = 3;
+constexpr int kPassesPerRound = 2;
+int far_rounds(int passes) { static int a=env("SHORT",2),b=env("LONG",6); return passes==2?a:b; }
 
 }  // namespace
 
 PatchScore score(const Patch& patch, const TrialOptions& options) {
-  return patch.score(options.shape, AngleTest(options.promise), AngleTest(options.goal));
+  PatchScore score =
+      patch.score(options.shape, AngleTest(options.promise), AngleTest(options.goal));
+  if (std::isfinite(options.far))
+    score.distance = largest_distance(patch.mesh, patch.fidelity, options.far);
+  return score;
 }
 
 namespace {
@@ -25,6 +38,25 @@ void relax_patch(Patch& patch, const TrialOptions& options, int passes) {
     if (patch.mesh.alive_triangle(t)) triangles.push_back(t);
   relax(patch.mesh, patch.fidelity, patch.inner_vertices(), relaxation, serial);
   patch.fidelity.rewalk(patch.mesh, triangles);
+}
+
+// Against large distances and angles at once: what is violated gets more weight, round by round.
+// Ends at the best patch on the way.
+void balance_patch(Patch& patch, TrialOptions& options, PatchScore& best_score, int rounds) {
+  Patch best = patch;
+  best_score.folded = std::numeric_limits<Index>::max();
+  for (int round = 0; round < rounds; ++round) {
+    relax_patch(patch, options, kPassesPerRound);
+    const PatchScore now = score(patch, options);
+    if (now < best_score) best = patch, best_score = now;
+    if (now.outside_goal > 0) options.shape.hinge *= kHingeGrowth;
+    if (now.distance > options.far)
+      emphasize_far(patch.mesh, patch.fidelity, std::max(options.far, kNearLargest * now.distance),
+                    kGrowth);
+    else if (now.outside_goal == 0)
+      break;
+  }
+  patch = std::move(best);
 }
 
 std::optional<Patch> edited(const Patch& patch, const std::vector<Edit>& edits) {
@@ -44,15 +76,22 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
   struct Trial {
     std::optional<Patch> patch;
     PatchScore score;
+    TrialOptions options;
   };
   std::vector<Trial> trials(sequences.size());
+  const bool far = std::isfinite(options.far);
   const auto improve = [&](Trial& trial, int passes) {
+    if (far) {
+      balance_patch(*trial.patch, trial.options, trial.score, far_rounds(passes));
+      return;
+    }
     relax_patch(*trial.patch, options, passes);
     trial.score = score(*trial.patch, options);
   };
   // A short relaxation of all, then a long one of the most promising.
   workers.for_each(trials.size(), 1, [&](std::size_t i) {
     trials[i].patch = edited(patch, sequences[i]);
+    trials[i].options = options;
     if (trials[i].patch) improve(trials[i], 2);
   });
   std::erase_if(trials, [](const Trial& t) { return !t.patch; });
