@@ -103,6 +103,7 @@ void print_json(const RemeshCommand& command, const Outcome& outcome, int code) 
             {"promise", to_json(outcome.promise, outcome.written, kTrianglesNamed)},
             {"seconds", outcome.seconds},
             {"stages", to_json(outcome.result.stages)}};
+  if (command.options.history) json["history"] = to_json(outcome.result.history);
   if (outcome.distance) json["distance"] = to_json(*outcome.distance);
   fmt::print("{}", dump(json));
 }

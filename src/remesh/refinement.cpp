@@ -15,6 +15,7 @@
 #include "refine/global_descent.h"
 #include "refine/sheet_separation.h"
 #include "refine/valence_mending.h"
+#include "remesh/restricted_diagram.h"
 
 namespace nonobtuse::pipeline {
 namespace {
@@ -36,8 +37,9 @@ class Refinement {
  public:
   Refinement(const mesh::Surface& surface, mesh::EditableMesh& mesh,
              const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor)
+             parallel::Monitor& monitor, const mesh::CurveNetwork* curves)
       : mesh_(mesh),
+
         options_(options),
         workers_(workers),
         monitor_(monitor),
@@ -47,10 +49,14 @@ class Refinement {
     fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
     if (!surface.size.empty()) fidelity_.size.measure(mesh);
+    fidelity_.attach_curves(mesh, curves, workers);
     fidelity_.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
     fidelity_.search_samples(mesh, workers);
     fidelity_.update_planes(mesh, workers);
   }
+
+  /// Where the knots are now.
+  void store_knots(mesh::CurveNetwork& curves) const { fidelity_.knots.store(curves); }
 
   Index run() {
     const double lo = options_.min_angle, hi = options_.max_angle;
@@ -85,6 +91,15 @@ class Refinement {
  private:
   bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
 
+  void record() {
+    if (!monitor_.recording()) return;
+    std::vector<Vec3> gradient;
+    const double energy = descent_.evaluate(gradient);
+    const TriangleMesh now = mesh_.to_mesh();
+    const BadTriangles bad = count_bad_triangles(now.vertices, now.triangles);
+    monitor_.record(done_, energy, bad.obtuse, bad.small);
+  }
+
   [[nodiscard]] Index outside_goal(const refine::AngleGoal& goal) const {
     return static_cast<Index>(refine::triangles_outside(mesh_, refine::AngleTest(goal)).size());
   }
@@ -114,8 +129,11 @@ class Refinement {
       refine::flip_edges(mesh_, fidelity_, shape);
       fidelity_.update_planes(mesh_, workers_);
       descent_.freeze();
-      descent_.run(std::min(kStepsBetweenFlips, iterations - done),
-                   [&] { return !monitor_.cancelled(); });
+      if (done_ == 0) record();
+      const int steps = std::min(kStepsBetweenFlips, iterations - done);
+      descent_.run(steps, [&] { return !monitor_.cancelled(); });
+      done_ += steps;
+      record();
     }
     if (monitor_.cancelled()) return;
     fidelity_.walk_samples(mesh_, workers_);
@@ -130,13 +148,14 @@ class Refinement {
   spatial::TriangleBvh bvh_;
   refine::Fidelity fidelity_;
   refine::GlobalDescent descent_;
+  int done_ = 0;  // iterations of the descents so far
 };
 
 }  // namespace
 
 Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
              const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor) {
+             parallel::Monitor& monitor, mesh::CurveNetwork* curves) {
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
@@ -144,7 +163,9 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
     const refine::AngleTest test({options.min_angle, options.max_angle});
     return static_cast<Index>(refine::triangles_outside(mesh, test).size());
   }
-  const Index outside = Refinement(surface, mesh, options, workers, monitor).run();
+  Refinement refinement(surface, mesh, options, workers, monitor, curves);
+  const Index outside = refinement.run();
+  if (curves) refinement.store_knots(*curves);
   mesh.compact();
   return outside;
 }
