@@ -11,18 +11,21 @@
 namespace nonobtuse::refine {
 namespace {
 
-static int env(const char*n,int d){auto p=getenv(n);return p?atoi(p):d;}
-static const int kBal=env("BAL",6);
-constexpr int kAttempts = 24;        // places
-constexpr double kInOrder = 7.5;       // largest distance to be content with, in root mean squares
-constexpr double kNear = 0.6;        // distances below this part of the largest do not count
-constexpr double kLittle = 0.8;      // distances below this part of what is in order do not count
-constexpr double kStillFar = 0.9;    // other centers to try: as far as this part of the largest
-const std::size_t kCenters = getenv("CEN")?atoi(getenv("CEN")):3;
-constexpr double kNewWeight = 0.2;   // of vertices of M that become samples
-constexpr double kMuch = 0.85;       // what relaxation alone must bring the largest distance to
-constexpr double kClearly = 0.95;    // what an edit must bring the largest distance to
-static const int kSequences = env("SEQ",10);
+static int env(const char* n, int d) {
+  auto p = getenv(n);
+  return p ? atoi(p) : d;
+}
+static const int kBal = env("BAL", 6);
+constexpr int kAttempts = 24;      // places
+constexpr double kInOrder = 7.5;   // largest distance to be content with, in root mean squares
+constexpr double kNear = 0.6;      // distances below this part of the largest do not count
+constexpr double kLittle = 0.8;    // distances below this part of what is in order do not count
+constexpr double kStillFar = 0.9;  // other centers to try: as far as this part of the largest
+const std::size_t kCenters = getenv("CEN") ? atoi(getenv("CEN")) : 3;
+constexpr double kNewWeight = 0.2;  // of vertices of M that become samples
+constexpr double kMuch = 0.85;      // what relaxation alone must bring the largest distance to
+constexpr double kClearly = 0.95;   // what an edit must bring the largest distance to
+static const int kSequences = env("SEQ", 10);
 
 class DistanceMender {
  public:
@@ -44,10 +47,18 @@ class DistanceMender {
       const int rings = c[1] - '0';
       bool changed = false;
       switch (c[0]) {
-        case 'r': changed = by_relaxation(t, rings); break;
-        case 'f': changed = by_flips(t, rings); break;
-        case 'p': changed = by_pair(t, 1, rings); break;
-        case 'm': changed = by_pair(t, -1, rings); break;
+        case 'r':
+          changed = by_relaxation(t, rings);
+          break;
+        case 'f':
+          changed = by_flips(t, rings);
+          break;
+        case 'p':
+          changed = by_pair(t, 1, rings);
+          break;
+        case 'm':
+          changed = by_pair(t, -1, rings);
+          break;
       }
       if (changed && getenv("DBG")) fprintf(stderr, "     by %c%c\n", c[0], c[1]);
       if (changed) return true;
@@ -56,7 +67,9 @@ class DistanceMender {
   }
 
  private:
-  bool by_relaxation(Index t, int rings) { return commit_if_better(patch_around(t, rings), {{}}, kMuch); }
+  bool by_relaxation(Index t, int rings) {
+    return commit_if_better(patch_around(t, rings), {{}}, kMuch);
+  }
 
   bool by_flips(Index t, int rings) {
     const Patch patch = patch_around(t, rings);
@@ -118,11 +131,16 @@ class DistanceMender {
     std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
     if (!best || !std::isfinite(after.energy)) return false;
     const PatchScore before = score(patch, options_);
-    if (getenv("DBG")) fprintf(stderr, "   d %.4f -> %.4f  (fold %d->%d val %d->%d prom %d->%d goal %d->%d) of %zu edits %zu\n", before.distance, after.distance, before.folded, after.folded, before.bad_valence, after.bad_valence,before.outside_promise,after.outside_promise,before.outside_goal,after.outside_goal, sequences.size(), best->edits.size());
+    if (getenv("DBG"))
+      fprintf(
+          stderr,
+          "   d %.4f -> %.4f  (fold %d->%d val %d->%d prom %d->%d goal %d->%d) of %zu edits %zu\n",
+          before.distance, after.distance, before.folded, after.folded, before.bad_valence,
+          after.bad_valence, before.outside_promise, after.outside_promise, before.outside_goal,
+          after.outside_goal, sequences.size(), best->edits.size());
     if (after.folded > before.folded || after.bad_valence > before.bad_valence ||
         after.outside_promise > before.outside_promise ||
-        after.outside_goal > before.outside_goal ||
-        !(after.distance < part * before.distance))
+        after.outside_goal > before.outside_goal || !(after.distance < part * before.distance))
       return false;
     renew(best->commit(mesh_, fidelity_));
     return true;
@@ -159,7 +177,10 @@ Index mend_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
   for (int attempt = 0; attempt < kAttempts && stuck < mender.far_points().size(); ++attempt) {
     if (!keep_going(static_cast<double>(attempt) / kAttempts)) break;
     const FarPoint place = mender.far_points()[stuck];
-    if (getenv("DBG")) fprintf(stderr, "attempt %d largest %.4f (of %zu, enough %.4f) at tri %d: %.4f\n", attempt, mender.far_points().front().distance, mender.far_points().size(), enough, place.triangle, place.distance);
+    if (getenv("DBG"))
+      fprintf(stderr, "attempt %d largest %.4f (of %zu, enough %.4f) at tri %d: %.4f\n", attempt,
+              mender.far_points().front().distance, mender.far_points().size(), enough,
+              place.triangle, place.distance);
     if (place.distance < kStillFar * mender.far_points().front().distance) break;
     if (mender.mend(place)) {
       ++changes;

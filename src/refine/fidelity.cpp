@@ -375,6 +375,55 @@ double Fidelity::triangle(Index t, const std::array<Vec3, 3>& p,
   return energy;
 }
 
+double Fidelity::corner(Index t, const std::array<Vec3, 3>& p, int k, Vec3& gradient,
+                        std::array<Vec3, 3>& hessian) const {
+  double energy = 0;
+  const auto add_projector = [&](double weight, const Vec3& n) {
+    hessian[0] += weight * n.x * n;
+    hessian[1] += weight * n.y * n;
+    hessian[2] += weight * n.z * n;
+  };
+  for (int j = 0; j < 3; ++j) {
+    const TangentPlane& plane = edge_planes[t][j];
+    const double weight = weights.to_surface * edge_weights[t] * plane.emphasis;
+    const double height = dot(midpoint(p, j) - plane.point, plane.normal) - plane.offset;
+    energy += weight * height * height;
+    if (j == k) continue;
+    gradient += weight * height * plane.normal;
+    add_projector(0.5 * weight, plane.normal);
+  }
+  if (first[t] < 0) return energy;
+  const TriangleFrame frame(p[0], p[1], p[2]);
+  const Vec3 normal = normalized(area_vector(p));
+  double along_normal = 0;  // summed weights of samples that are pulled along the normal only
+  double isotropic = 0;
+  for (Index s = first[t]; s >= 0; s = samples[s].next) {
+    const Vec3& y = samples[s].point;
+    const ClosestPoint c = frame.closest(y);
+    const double w = weights.to_mesh * samples[s].weight;
+    energy += w * c.squared_distance;
+    const auto& b = c.barycentric;
+    if (b[k] == 0) continue;
+    gradient += 2 * w * b[k] * (b[0] * p[0] + b[1] * p[1] + b[2] * p[2] - y);
+    const double weight = 2 * w * b[k] * b[k];
+    if (c.interior()) {
+      along_normal += weight;
+      continue;
+    }
+    // On an edge the point is free to slide along it, at the corner it is not.
+    isotropic += weight;
+    if (b[k] < 1) {
+      const int other = b[next(k)] > 0 ? next(k) : previous(k);
+      add_projector(-weight, normalized(p[other] - p[k]));
+    }
+  }
+  add_projector(along_normal, normal);
+  hessian[0].x += isotropic;
+  hessian[1].y += isotropic;
+  hessian[2].z += isotropic;
+  return energy;
+}
+
 double Fidelity::vertex(Index v, const Vec3& p, Vec3* gradient) const {
   const TangentPlane& plane = vertex_planes[v];
   const double weight = weights.to_surface * vertex_weights[v];

@@ -114,6 +114,10 @@ class Fidelity {
 
   /// Energy of the samples and the edges of a triangle with corners p; adds to `gradient`.
   double triangle(Index t, const std::array<Vec3, 3>& p, std::array<Vec3, 3>* gradient) const;
+  /// Energy of the samples and the edges of a triangle; adds to the gradient by corner k and, with
+  /// feet and closest points frozen (Gauss-Newton), to the Hessian's columns.
+  double corner(Index t, const std::array<Vec3, 3>& p, int k, Vec3& gradient,
+                std::array<Vec3, 3>& hessian) const;
   /// Energy of a vertex at p against its tangent plane; adds to `gradient`.
   double vertex(Index v, const Vec3& p, Vec3* gradient) const;
   /// Mean squared distance of the samples, by weight.

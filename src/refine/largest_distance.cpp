@@ -21,8 +21,8 @@ struct Known {
 
 // The points of a triangle of T that may be farther than `far` from their own feet on M: corners,
 // points of the edges by bisection, as the distance grows no faster than one walks, and the
-// centroid. Every edge is seen from the side of lower index. visit(point, distance, plane that pulls
-// it: of edge k, or 3 + k for corner k) gives what counts as far from then on.
+// centroid. Every edge is seen from the side of lower index. visit(point, distance, plane that
+// pulls it: of edge k, or 3 + k for corner k) gives what counts as far from then on.
 template <class Visit>
 class PointSearch {
  public:
@@ -170,9 +170,9 @@ void FarPoints::update(const std::vector<Index>& changed, const std::vector<Inde
 
 void FarPoints::add(Index t) {
   if (!mesh_->alive_triangle(t)) return;
-  const double largest =
-      triangle_distance(*mesh_, *fidelity_, t, far_,
-                        [&](const Vec3& p, double squared) { return squared_distance(p, squared); });
+  const double largest = triangle_distance(
+      *mesh_, *fidelity_, t, far_,
+      [&](const Vec3& p, double squared) { return squared_distance(p, squared); });
   if (largest > far_) list_.push_back({largest, t});
 }
 

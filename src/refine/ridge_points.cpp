@@ -10,9 +10,9 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr std::size_t kChunk = 512;
-constexpr double kSharp = 0.9;      // cosine between the normals at a sharp edge
-constexpr double kSpacing = 0.3;    // of points on sharp edges, where the size is 1
-constexpr int kMostPoints = 7;      // on one edge
+constexpr double kSharp = 0.9;    // cosine between the normals at a sharp edge
+constexpr double kSpacing = 0.3;  // of points on sharp edges, where the size is 1
+constexpr int kMostPoints = 7;    // on one edge
 
 // Numbers the points of M's ridges: vertices first, then `kMostPoints` places for every edge, named
 // by the facet of lower index.
@@ -44,7 +44,8 @@ class RidgePoints {
       if (g < 0 || dot(surface_.normals[f], surface_.normals[g]) > kSharp) continue;
       Vec3 a = surface_.vertices[v[mesh::next(k)]], b = surface_.vertices[v[mesh::previous(k)]];
       const double size = surface_.size_at(f, {1.0 / 3, 1.0 / 3, 1.0 / 3});
-      const double pieces = std::min(distance(a, b) / (kSpacing * size), static_cast<double>(kMostPoints + 1));
+      const double pieces =
+          std::min(distance(a, b) / (kSpacing * size), static_cast<double>(kMostPoints + 1));
       const int points = static_cast<int>(std::ceil(pieces)) - 1;
       if (points <= 0) continue;
       Index owner = f;

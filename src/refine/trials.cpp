@@ -9,14 +9,20 @@
 namespace nonobtuse::refine {
 namespace {
 
-static int env(const char*n,int d){auto p=getenv(n);return p?atoi(p):d;}
-const std::ptrdiff_t kFinalists = env("FIN",4);
+static int env(const char* n, int d) {
+  auto p = getenv(n);
+  return p ? atoi(p) : d;
+}
+const std::ptrdiff_t kFinalists = env("FIN", 4);
 // Against large distances: points at this part of the largest get more weight, every few passes.
 constexpr double kNearLargest = 0.75;
 constexpr double kGrowth = 1.6;
 constexpr double kHingeGrowth = 3;
 constexpr int kPassesPerRound = 2;
-int far_rounds(int passes) { static int a=env("SHORT",2),b=env("LONG",6); return passes==2?a:b; }
+int far_rounds(int passes) {
+  static int a = env("SHORT", 2), b = env("LONG", 6);
+  return passes == 2 ? a : b;
+}
 
 }  // namespace
 
