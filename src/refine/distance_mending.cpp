@@ -11,21 +11,20 @@
 namespace nonobtuse::refine {
 namespace {
 
-static int env(const char* n, int d) {
-  auto p = getenv(n);
-  return p ? atoi(p) : d;
-}
-static const int kBal = env("BAL", 6);
+constexpr int kSequences = 10;     // of flips
+constexpr int kPairSequences = 6;  // per vertex
 constexpr int kAttempts = 24;      // places
-constexpr double kInOrder = 7.5;   // largest distance to be content with, in root mean squares
-constexpr double kNear = 0.6;      // distances below this part of the largest do not count
+// Trial passes times vertices: about an eighth of a second.
+constexpr Index kEffort = 40000;
+constexpr Index kPassesPerSequence = 2, kPassesPerAttempt = 40;
+constexpr double kInOrder = 5.5;   // largest distance to be content with, in root mean squares
 constexpr double kLittle = 0.8;    // distances below this part of what is in order do not count
+constexpr double kNear = 0.6;      // nor do those below this part of the largest
 constexpr double kStillFar = 0.9;  // other centers to try: as far as this part of the largest
-const std::size_t kCenters = getenv("CEN") ? atoi(getenv("CEN")) : 3;
-constexpr double kNewWeight = 0.2;  // of vertices of M that become samples
+constexpr std::size_t kCenters = 3;
+constexpr double kNewWeight = 0.2;  // of points of M that become samples
 constexpr double kMuch = 0.85;      // what relaxation alone must bring the largest distance to
-constexpr double kClearly = 0.95;   // what an edit must bring the largest distance to
-static const int kSequences = env("SEQ", 10);
+constexpr double kClearly = 0.95;   // and an edit
 
 class DistanceMender {
  public:
@@ -40,31 +39,15 @@ class DistanceMender {
 
   [[nodiscard]] const std::vector<FarPoint>& far_points() const { return far_points_.list(); }
 
+  // Cheap changes first.
   bool mend(const FarPoint& place) {
     options_.far = std::max(kLittle * enough_, kNear * place.distance);
     const Index t = place.triangle;
-    for (const char* c = getenv("PLAN") ? getenv("PLAN") : "r3f2f3p3m3f4"; *c; c += 2) {
-      const int rings = c[1] - '0';
-      bool changed = false;
-      switch (c[0]) {
-        case 'r':
-          changed = by_relaxation(t, rings);
-          break;
-        case 'f':
-          changed = by_flips(t, rings);
-          break;
-        case 'p':
-          changed = by_pair(t, 1, rings);
-          break;
-        case 'm':
-          changed = by_pair(t, -1, rings);
-          break;
-      }
-      if (changed && getenv("DBG")) fprintf(stderr, "     by %c%c\n", c[0], c[1]);
-      if (changed) return true;
-    }
-    return false;
+    return by_relaxation(t, 3) || by_flips(t, 3) || by_pair(t, 1, 3) || by_flips(t, 2) ||
+           by_flips(t, 4);
   }
+
+  [[nodiscard]] bool exhausted() const { return effort_ <= 0; }
 
  private:
   bool by_relaxation(Index t, int rings) {
@@ -84,7 +67,8 @@ class DistanceMender {
     const Patch patch = patch_around(t, rings);
     std::vector<std::vector<Edit>> sequences;
     for (Index v : local(patch, t))
-      for (auto& edits : search_balancing_edits(patch, v, net, kBal)) sequences.push_back(edits);
+      for (auto& edits : search_balancing_edits(patch, v, net, kPairSequences))
+        sequences.push_back(edits);
     const mesh::EditableMesh mesh_before = mesh_;
     const Fidelity fidelity_before = fidelity_;
     const FarPoints far_before = far_points_;
@@ -127,17 +111,12 @@ class DistanceMender {
 
   bool commit_if_better(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
                         double part) {
+    effort_ -= static_cast<Index>(patch.inner_vertices().size()) *
+               (kPassesPerSequence * static_cast<Index>(sequences.size()) + kPassesPerAttempt);
     PatchScore after;
     std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
     if (!best || !std::isfinite(after.energy)) return false;
     const PatchScore before = score(patch, options_);
-    if (getenv("DBG"))
-      fprintf(
-          stderr,
-          "   d %.4f -> %.4f  (fold %d->%d val %d->%d prom %d->%d goal %d->%d) of %zu edits %zu\n",
-          before.distance, after.distance, before.folded, after.folded, before.bad_valence,
-          after.bad_valence, before.outside_promise, after.outside_promise, before.outside_goal,
-          after.outside_goal, sequences.size(), best->edits.size());
     if (after.folded > before.folded || after.bad_valence > before.bad_valence ||
         after.outside_promise > before.outside_promise ||
         after.outside_goal > before.outside_goal || !(after.distance < part * before.distance))
@@ -158,6 +137,7 @@ class DistanceMender {
   Fidelity& fidelity_;
   TrialOptions options_;
   double enough_;
+  Index effort_ = kEffort;
   const parallel::Workers& workers_;
   FarPoints far_points_;
 };
@@ -174,13 +154,11 @@ Index mend_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
   DistanceMender mender(mesh, fidelity, strict, enough, workers);
   Index changes = 0;
   std::size_t stuck = 0;  // centers that nothing helped at, among the farthest
-  for (int attempt = 0; attempt < kAttempts && stuck < mender.far_points().size(); ++attempt) {
+  for (int attempt = 0;
+       attempt < kAttempts && !mender.exhausted() && stuck < mender.far_points().size();
+       ++attempt) {
     if (!keep_going(static_cast<double>(attempt) / kAttempts)) break;
     const FarPoint place = mender.far_points()[stuck];
-    if (getenv("DBG"))
-      fprintf(stderr, "attempt %d largest %.4f (of %zu, enough %.4f) at tri %d: %.4f\n", attempt,
-              mender.far_points().front().distance, mender.far_points().size(), enough,
-              place.triangle, place.distance);
     if (place.distance < kStillFar * mender.far_points().front().distance) break;
     if (mender.mend(place)) {
       ++changes;

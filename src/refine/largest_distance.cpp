@@ -117,11 +117,37 @@ std::vector<Index> all_triangles(const mesh::EditableMesh& mesh) {
 
 }  // namespace
 
-double largest_distance(const mesh::EditableMesh& mesh, const Fidelity& fidelity, double far) {
-  const std::vector<Index> triangles = all_triangles(mesh);
+std::vector<FarWeight> far_weights(const mesh::EditableMesh& patch, Fidelity& fidelity,
+                                   double far) {
+  std::vector<FarWeight> found;
+  const std::vector<Index> triangles = all_triangles(patch);
+  for (Index t : triangles) {
+    const TriangleFrame frame = frame_of(corners(patch, t));
+    for (Index s = fidelity.first[t]; s >= 0; s = fidelity.samples[s].next) {
+      Sample& sample = fidelity.samples[s];
+      double squared = frame.closest(sample.point).squared_distance;
+      if (squared <= far * far) continue;
+      squared = nearest_of(patch, triangles, sample.point, squared);
+      if (squared > far * far) found.push_back({std::sqrt(squared), &sample.weight});
+    }
+    search_points(patch, fidelity, t, far, [&](const Vec3& p, double own, int plane) {
+      const double squared = fidelity.surface_bvh().closest(p, own * own).squared_distance;
+      if (squared > far * far)
+        found.push_back({std::sqrt(squared),
+                         plane < 3
+                             ? &fidelity.edge_planes[t][plane].emphasis
+                             : &fidelity.vertex_planes[patch.triangle(t)[plane - 3]].emphasis});
+      return far;
+    });
+  }
+  return found;
+}
+
+double largest_distance(const mesh::EditableMesh& patch, const Fidelity& fidelity, double far) {
+  const std::vector<Index> triangles = all_triangles(patch);
   for (Index t : triangles)
-    far = triangle_distance(mesh, fidelity, t, far, [&](const Vec3& p, double squared) {
-      return nearest_of(mesh, triangles, p, squared);
+    far = triangle_distance(patch, fidelity, t, far, [&](const Vec3& p, double squared) {
+      return nearest_of(patch, triangles, p, squared);
     });
   return far;
 }
@@ -180,28 +206,6 @@ void FarPoints::sort() {
   std::sort(list_.begin(), list_.end(), [](const FarPoint& a, const FarPoint& b) {
     return a.distance != b.distance ? a.distance > b.distance : a.triangle < b.triangle;
   });
-}
-
-void emphasize_far(const mesh::EditableMesh& mesh, Fidelity& fidelity, double far, double growth) {
-  std::vector<char> vertex_far(mesh.vertex_capacity(), 0);
-  for (Index t : all_triangles(mesh)) {
-    const TriangleFrame frame = frame_of(corners(mesh, t));
-    for (Index s = fidelity.first[t]; s >= 0; s = fidelity.samples[s].next)
-      if (frame.closest(fidelity.samples[s].point).squared_distance > far * far)
-        fidelity.samples[s].weight *= growth;
-    std::array<bool, 3> edge_far{};
-    search_points(mesh, fidelity, t, far, [&](const Vec3&, double, int plane) {
-      if (plane < 3)
-        edge_far[plane] = true;
-      else
-        vertex_far[mesh.triangle(t)[plane - 3]] = 1;
-      return far;
-    });
-    for (int k = 0; k < 3; ++k)
-      if (edge_far[k]) fidelity.edge_planes[t][k].emphasis *= growth;
-  }
-  for (Index v = 0; v < mesh.vertex_capacity(); ++v)
-    if (vertex_far[v]) fidelity.vertex_planes[v].emphasis *= growth;
 }
 
 }  // namespace nonobtuse::refine

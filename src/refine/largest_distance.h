@@ -14,9 +14,18 @@ struct FarPoint {
   Index triangle;  ///< of the mesh
 };
 
-/// Largest distance at the points of a patch: samples, and vertices and points on edges. Exact
-/// beyond `far`; `far` if there is none.
-double largest_distance(const mesh::EditableMesh& mesh, const Fidelity& fidelity, double far);
+/// A weight of the fidelity, and how far what it pulls at is.
+struct FarWeight {
+  double distance;
+  double* weight;
+};
+
+/// All points of a patch farther than `far`: its samples from what is nearest of it, its vertices,
+/// points on edges and centroids from the surface.
+std::vector<FarWeight> far_weights(const mesh::EditableMesh& patch, Fidelity& fidelity, double far);
+
+/// The largest distance of these; `far` if there are none.
+double largest_distance(const mesh::EditableMesh& patch, const Fidelity& fidelity, double far);
 
 /// Triangles with points farther than a bound, each with its largest distance, while the mesh
 /// changes here and there.
@@ -45,8 +54,5 @@ class FarPoints {
   std::vector<Index> changed_;
   std::vector<FarPoint> list_;
 };
-
-/// Multiplies the weights of all points beyond `far` by `growth`.
-void emphasize_far(const mesh::EditableMesh& mesh, Fidelity& fidelity, double far, double growth);
 
 }  // namespace nonobtuse::refine

@@ -9,20 +9,15 @@
 namespace nonobtuse::refine {
 namespace {
 
-static int env(const char* n, int d) {
-  auto p = getenv(n);
-  return p ? atoi(p) : d;
-}
-const std::ptrdiff_t kFinalists = env("FIN", 4);
+constexpr std::ptrdiff_t kFinalists = 4;
+constexpr std::ptrdiff_t kFarFinalists = 2;  // against large distances
+constexpr int kShortRounds = 1;
+constexpr int kLongRounds = 10;
 // Against large distances: points at this part of the largest get more weight, every few passes.
 constexpr double kNearLargest = 0.75;
 constexpr double kGrowth = 1.6;
 constexpr double kHingeGrowth = 3;
 constexpr int kPassesPerRound = 2;
-int far_rounds(int passes) {
-  static int a = env("SHORT", 2), b = env("LONG", 6);
-  return passes == 2 ? a : b;
-}
 
 }  // namespace
 
@@ -47,20 +42,25 @@ void relax_patch(Patch& patch, const TrialOptions& options, int passes) {
 }
 
 // Against large distances and angles at once: what is violated gets more weight, round by round.
-// Ends at the best patch on the way.
+// Ends at the best patch on the way, if it is better than `best_score`, else where it began.
 void balance_patch(Patch& patch, TrialOptions& options, PatchScore& best_score, int rounds) {
   Patch best = patch;
-  best_score.folded = std::numeric_limits<Index>::max();
+  const AngleTest promise(options.promise), goal(options.goal);
   for (int round = 0; round < rounds; ++round) {
     relax_patch(patch, options, kPassesPerRound);
-    const PatchScore now = score(patch, options);
+    std::vector<FarWeight> points = far_weights(patch.mesh, patch.fidelity, options.far);
+    PatchScore now = patch.score(options.shape, promise, goal);
+    now.distance = options.far;
+    for (const FarWeight& p : points) now.distance = std::max(now.distance, p.distance);
     if (now < best_score) best = patch, best_score = now;
+    if (now.outside_goal == 0 && points.empty()) break;
     if (now.outside_goal > 0) options.shape.hinge *= kHingeGrowth;
-    if (now.distance > options.far)
-      emphasize_far(patch.mesh, patch.fidelity, std::max(options.far, kNearLargest * now.distance),
-                    kGrowth);
-    else if (now.outside_goal == 0)
-      break;
+    std::erase_if(points,
+                  [&](const FarWeight& p) { return p.distance < kNearLargest * now.distance; });
+    std::sort(points.begin(), points.end(),
+              [](const FarWeight& a, const FarWeight& b) { return a.weight < b.weight; });
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (i == 0 || points[i].weight != points[i - 1].weight) *points[i].weight *= kGrowth;
   }
   patch = std::move(best);
 }
@@ -87,10 +87,6 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
   std::vector<Trial> trials(sequences.size());
   const bool far = std::isfinite(options.far);
   const auto improve = [&](Trial& trial, int passes) {
-    if (far) {
-      balance_patch(*trial.patch, trial.options, trial.score, far_rounds(passes));
-      return;
-    }
     relax_patch(*trial.patch, options, passes);
     trial.score = score(*trial.patch, options);
   };
@@ -98,13 +94,21 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
   workers.for_each(trials.size(), 1, [&](std::size_t i) {
     trials[i].patch = edited(patch, sequences[i]);
     trials[i].options = options;
-    if (trials[i].patch) improve(trials[i], 2);
+    if (!trials[i].patch) return;
+    if (!far) return improve(trials[i], 2);
+    trials[i].score.folded = std::numeric_limits<Index>::max();
+    balance_patch(*trials[i].patch, trials[i].options, trials[i].score, kShortRounds);
   });
   std::erase_if(trials, [](const Trial& t) { return !t.patch; });
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.score < b.score; });
-  if (std::ssize(trials) > kFinalists) trials.erase(trials.begin() + kFinalists, trials.end());
+  const std::ptrdiff_t finalists = std::min(std::ssize(trials), far ? kFarFinalists : kFinalists);
+  trials.erase(trials.begin() + finalists, trials.end());
   workers.for_each(trials.size(), 1, [&](std::size_t i) {
+    if (far) {
+      balance_patch(*trials[i].patch, trials[i].options, trials[i].score, kLongRounds);
+      return;
+    }
     improve(trials[i], options.passes);
     improve(trials[i], options.passes);
   });
