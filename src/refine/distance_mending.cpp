@@ -15,8 +15,8 @@ constexpr int kSequences = 10;     // of flips
 constexpr int kPairSequences = 6;  // per vertex
 constexpr int kAttempts = 24;      // places
 // Trial passes times vertices: about an eighth of a second.
-constexpr Index kEffort = 40000;
-constexpr Index kPassesPerSequence = 2, kPassesPerAttempt = 40;
+constexpr Index kEffort = 60000;
+constexpr Index kPasses[] = {2, 40}, kThoroughPasses[] = {4, 80};  // per sequence, per attempt
 constexpr double kInOrder = 5.5;   // largest distance to be content with, in root mean squares
 constexpr double kLittle = 0.8;    // distances below this part of what is in order do not count
 constexpr double kNear = 0.6;      // nor do those below this part of the largest
@@ -43,8 +43,10 @@ class DistanceMender {
   bool mend(const FarPoint& place) {
     options_.far = std::max(kLittle * enough_, kNear * place.distance);
     const Index t = place.triangle;
-    return by_relaxation(t, 3) || by_flips(t, 3) || by_pair(t, 1, 3) || by_flips(t, 2) ||
-           by_flips(t, 4);
+    options_.thorough = false;
+    if (by_relaxation(t, 3) || by_flips(t, 3) || by_pair(t, 1, 3) || by_flips(t, 2)) return true;
+    options_.thorough = true;
+    return by_flips(t, 3) || by_flips(t, 4);
   }
 
   [[nodiscard]] bool exhausted() const { return effort_ <= 0; }
@@ -111,8 +113,9 @@ class DistanceMender {
 
   bool commit_if_better(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
                         double part) {
+    const auto& passes = options_.thorough ? kThoroughPasses : kPasses;
     effort_ -= static_cast<Index>(patch.inner_vertices().size()) *
-               (kPassesPerSequence * static_cast<Index>(sequences.size()) + kPassesPerAttempt);
+               (passes[0] * static_cast<Index>(sequences.size()) + passes[1]);
     PatchScore after;
     std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
     if (!best || !std::isfinite(after.energy)) return false;

@@ -10,8 +10,8 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr std::ptrdiff_t kFinalists = 4;
-constexpr std::ptrdiff_t kFarFinalists = 2;  // against large distances
-constexpr int kShortRounds = 1;
+// Against large distances, in haste.
+constexpr std::ptrdiff_t kFewFinalists = 2;
 constexpr int kLongRounds = 10;
 // Against large distances: points at this part of the largest get more weight, every few passes.
 constexpr double kNearLargest = 0.75;
@@ -97,12 +97,13 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
     if (!trials[i].patch) return;
     if (!far) return improve(trials[i], 2);
     trials[i].score.folded = std::numeric_limits<Index>::max();
-    balance_patch(*trials[i].patch, trials[i].options, trials[i].score, kShortRounds);
+    balance_patch(*trials[i].patch, trials[i].options, trials[i].score, options.thorough ? 2 : 1);
   });
   std::erase_if(trials, [](const Trial& t) { return !t.patch; });
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.score < b.score; });
-  const std::ptrdiff_t finalists = std::min(std::ssize(trials), far ? kFarFinalists : kFinalists);
+  const std::ptrdiff_t finalists =
+      std::min(std::ssize(trials), far && !options.thorough ? kFewFinalists : kFinalists);
   trials.erase(trials.begin() + finalists, trials.end());
   workers.for_each(trials.size(), 1, [&](std::size_t i) {
     if (far) {

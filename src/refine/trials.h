@@ -19,6 +19,7 @@ struct TrialOptions {
   /// Largest distances beyond this are compared (before the energy), and relaxation works against
   /// them; infinity: distances count by their energy alone.
   double far = std::numeric_limits<double>::infinity();
+  bool thorough = false;  ///< against large distances: more sequences get a long relaxation
 };
 
 PatchScore score(const Patch& patch, const TrialOptions& options);
