@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "refine/largest_distance.h"
 #include "refine/neighborhood.h"
@@ -44,7 +46,7 @@ class DistanceMender {
     options_.far = std::max(kLittle * enough_, kNear * place.distance);
     const Index t = place.triangle;
     options_.thorough = false;
-    if (by_relaxation(t, 3) || by_flips(t, 3) || by_pair(t, 1, 3) || by_flips(t, 2)) return true;
+    if (by_relaxation(t, 3) || by_flips(t, 3) || by_pair(t, 3) || by_flips(t, 2)) return true;
     options_.thorough = true;
     return by_flips(t, 3) || by_flips(t, 4);
   }
@@ -64,27 +66,32 @@ class DistanceMender {
     return commit_if_better(patch, sequences, kClearly);
   }
 
-  // A vertex more here, and one less elsewhere; or the reverse.
-  bool by_pair(Index t, int net, int rings) {
+  // A vertex more here, and one less elsewhere.
+  bool by_pair(Index t, int rings) {
     const Patch patch = patch_around(t, rings);
     std::vector<std::vector<Edit>> sequences;
     for (Index v : local(patch, t))
-      for (auto& edits : search_balancing_edits(patch, v, net, kPairSequences))
+      for (auto& edits : search_balancing_edits(patch, v, 1, kPairSequences))
         sequences.push_back(edits);
-    const mesh::EditableMesh mesh_before = mesh_;
-    const Fidelity fidelity_before = fidelity_;
-    const FarPoints far_before = far_points_;
-    if (!commit_if_better(patch, sequences, kClearly)) return false;
+    std::optional<State> before;
+    if (!commit_if_better(patch, sequences, kClearly, &before)) return false;
     std::vector<Index> touched;
-    if (balance_count(mesh_, fidelity_, -net, options_, workers_, &touched)) {
+    if (balance_count(mesh_, fidelity_, -1, options_, workers_, &touched)) {
       renew(touched);
       return true;
     }
-    mesh_ = mesh_before;
-    fidelity_ = fidelity_before;
-    far_points_ = far_before;
+    mesh_ = std::move(before->mesh);
+    fidelity_ = std::move(before->fidelity);
+    far_points_ = std::move(before->far_points);
     return false;
   }
+
+  // What a change that cannot be balanced is taken back to.
+  struct State {
+    mesh::EditableMesh mesh;
+    Fidelity fidelity;
+    FarPoints far_points;
+  };
 
   // Without samples whose foot is lost on a wrong sheet: what is nearest at all is much nearer.
   [[nodiscard]] Patch patch_around(Index t, int rings) const {
@@ -112,7 +119,7 @@ class DistanceMender {
   }
 
   bool commit_if_better(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
-                        double part) {
+                        double part, std::optional<State>* state = nullptr) {
     const auto& passes = options_.thorough ? kThoroughPasses : kPasses;
     effort_ -= static_cast<Index>(patch.inner_vertices().size()) *
                (passes[0] * static_cast<Index>(sequences.size()) + passes[1]);
@@ -124,6 +131,7 @@ class DistanceMender {
         after.outside_promise > before.outside_promise ||
         after.outside_goal > before.outside_goal || !(after.distance < part * before.distance))
       return false;
+    if (state) state->emplace(State{mesh_, fidelity_, far_points_});
     renew(best->commit(mesh_, fidelity_));
     return true;
   }

@@ -174,7 +174,9 @@ FarPoints::FarPoints(const mesh::EditableMesh& mesh, const Fidelity& fidelity, d
 }
 
 double FarPoints::squared_distance(const Vec3& p, double limit) const {
-  const auto unchanged = [&](Index i) { return !is_changed_[triangle_[i]]; };
+  const auto unchanged = [&](Index i) {
+    return !is_changed_[triangle_[i]] && mesh_->alive_triangle(triangle_[i]);
+  };
   limit = bvh_.closest_if(p, limit, unchanged).squared_distance;
   return nearest_of(*mesh_, changed_, p, limit);
 }
