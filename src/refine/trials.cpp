@@ -32,7 +32,8 @@ PatchScore score(const Patch& patch, const TrialOptions& options) {
 namespace {
 
 void relax_patch(Patch& patch, const TrialOptions& options, int passes) {
-  const RelaxationOptions relaxation{options.shape, passes, options.on_surface};
+  const RelaxationOptions relaxation{options.shape, passes, options.on_surface,
+                                     std::isfinite(options.far)};
   const parallel::Workers serial(1);
   std::vector<Index> triangles;
   for (Index t = 0; t < patch.mesh.triangle_capacity(); ++t)
