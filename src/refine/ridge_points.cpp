@@ -10,10 +10,9 @@ namespace nonobtuse::refine {
 namespace {
 
 constexpr std::size_t kChunk = 512;
-const double kSharp =
-    getenv("SHARP") ? atof(getenv("SHARP")) : 0.9;  // cosine between the normals at a sharp edge
-constexpr double kSpacing = 0.3;                    // of points on sharp edges, where the size is 1
-constexpr int kMostPoints = 7;                      // on one edge
+constexpr double kSharp = 0.9;    // cosine between the normals at a sharp edge
+constexpr double kSpacing = 0.3;  // of points on sharp edges, where the size is 1
+constexpr int kMostPoints = 7;    // on one edge
 
 // Numbers the points of M's ridges: vertices first, then `kMostPoints` places for every edge, named
 // by the facet of lower index.
