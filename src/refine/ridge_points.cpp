@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kChunk = 512;
 constexpr double kSharp = 0.9;    // cosine between the normals at a sharp edge
+constexpr double kNeedle = 0.02;  // area of a facet next to one of area 1
 constexpr double kSpacing = 0.3;  // of points on sharp edges, where the size is 1
 constexpr int kMostPoints = 7;    // on one edge
 
@@ -36,12 +37,16 @@ class RidgePoints {
 
   // Calls visit(number, point) for the points of a facet.
   template <class Visit>
-  void of_facet(Index f, const Visit& visit) const {
+  void of_facet(Index f, FarRidges which, const Visit& visit) const {
     const Triangle& v = surface_.triangles[f];
     for (int k = 0; k < 3; ++k) visit(v[k], surface_.vertices[v[k]]);
+    if (which == FarRidges::Vertices) return;
     for (int k = 0; k < 3; ++k) {
       const Index g = surface_.adjacent[f][k];
       if (g < 0 || dot(surface_.normals[f], surface_.normals[g]) > kSharp) continue;
+      // The normal of a needle says little.
+      const double ratio = surface_.areas[f] / surface_.areas[g];
+      if (ratio < kNeedle || ratio * kNeedle > 1) continue;
       Vec3 a = surface_.vertices[v[mesh::next(k)]], b = surface_.vertices[v[mesh::previous(k)]];
       const double size = surface_.size_at(f, {1.0 / 3, 1.0 / 3, 1.0 / 3});
       const double pieces =
@@ -72,7 +77,7 @@ class RidgePoints {
 
 Index Fidelity::emphasize_far_ridges(const mesh::EditableMesh& mesh, double far, double weight,
                                      double growth, const parallel::Workers& workers,
-                                     const std::vector<Index>* triangles) {
+                                     FarRidges which, const std::vector<Index>* triangles) {
   std::vector<Index> all;
   if (!triangles) {
     for (Index t = 0; t < static_cast<Index>(first.size()); ++t) all.push_back(t);
@@ -100,17 +105,19 @@ Index Fidelity::emphasize_far_ridges(const mesh::EditableMesh& mesh, double far,
       if (sample.ridge >= 0 || sample.facet == before) continue;
       before = sample.facet;
       const auto add = [&](Index facet) {
-        ridges.of_facet(facet, [&](Index number, const Vec3& point) {
+        ridges.of_facet(facet, which, [&](Index number, const Vec3& point) {
           if (!ridges.mark(number)) return;
           const double local = surface().size_at(facet, {1.0 / 3, 1.0 / 3, 1.0 / 3});
           const double area = local * local;
+          // With the facet of the sample, which is no needle.
           candidates.push_back(
-              {point, weight * area * TargetSize::fidelity_factor(area), facet, number});
+              {point, weight * area * TargetSize::fidelity_factor(area), sample.facet, number});
           nearest.push_back(t);
         });
       };
       // Facets smaller than a sample's share may have none: their neighbours' count.
       add(sample.facet);
+      if (which == FarRidges::Vertices) continue;
       for (const Index g : surface().adjacent[sample.facet])
         if (g >= 0) add(g);
     }

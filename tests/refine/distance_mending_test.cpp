@@ -74,7 +74,8 @@ TEST(RidgePoints, SharpEdgesAndVerticesOfTheSurfaceBecomeSamples) {
   Scene s(cube(), test::sphere(8));
   const std::size_t before = s.fidelity.samples.size();
   const double half = s.made.surface.vertices[6].x;
-  const Index far = s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers);
+  const Index far = s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers,
+                                                    FarRidges::VerticesAndEdges);
   EXPECT_EQ(static_cast<std::size_t>(far), s.fidelity.samples.size() - before);
   std::size_t corners = 0, on_edges = 0;
   for (std::size_t i = before; i < s.fidelity.samples.size(); ++i) {
@@ -99,7 +100,8 @@ TEST(FarPoints, FindsWhatSearchFinds) {
   Scene s(test::sphere(32), test::sphere(8));
   s.made.mesh.positions[20] *= 1.05;
   s.renew();
-  const refine::FarPoints points(s.made.mesh, s.fidelity, 0.01, s.workers);
+  const refine::FarPoints points(s.made.mesh, s.fidelity, 0.01, s.workers,
+                                 FarRidges::VerticesAndEdges);
   ASSERT_FALSE(points.list().empty());
   EXPECT_NEAR(points.list().front().distance, brute_force_distance(s), 0.02);
   for (std::size_t i = 1; i < points.list().size(); ++i)
