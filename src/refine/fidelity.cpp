@@ -216,50 +216,6 @@ void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, 
   }
 }
 
-Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                                       double growth, const parallel::Workers& workers) {
-  // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
-  std::vector<Index> start(surface().vertices.size(), -1);
-  std::vector<Sample> candidates;
-  std::vector<Index> nearest;
-  Index count = 0;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
-    for (Index s = first[t]; s >= 0; s = samples[s].next)
-      if (samples[s].vertex >= 0) start[samples[s].vertex] = -2;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
-    for (Index s = first[t]; s >= 0; s = samples[s].next) {
-      Sample& sample = samples[s];
-      if (sample.vertex >= 0) {
-        const std::array<Vec3, 3> p = corners(mesh, t);
-        const double d = TriangleFrame(p[0], p[1], p[2]).closest(sample.point).squared_distance;
-        if (d > far * far) sample.weight *= growth, ++count;
-        continue;
-      }
-      for (Index v : surface().triangles[sample.facet]) {
-        if (start[v] != -1) continue;
-        start[v] = t;
-        const double area = surface().size.empty() ? 1 : surface().size[v] * surface().size[v];
-        candidates.push_back({surface().vertices[v],
-                              weight * area * TargetSize::fidelity_factor(area), sample.facet, v});
-        nearest.push_back(t);
-      }
-    }
-  std::vector<char> is_far(candidates.size());
-  workers.for_each(candidates.size(), kChunk, [&](std::size_t i) {
-    ClosestPoint closest;
-    nearest[i] = walk_to_nearest(mesh, nearest[i], candidates[i], closest);
-    is_far[i] = closest.squared_distance > far * far;
-  });
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!is_far[i]) continue;
-    ++count;
-    candidates[i].next = first[nearest[i]];
-    first[nearest[i]] = static_cast<Index>(samples.size());
-    samples.push_back(candidates[i]);
-  }
-  return count;
-}
-
 // Counting sort: the samples of a triangle lie together in memory, in a fixed order.
 void Fidelity::sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles) {
   std::vector<Index> start(triangles + 1, 0);
@@ -416,6 +372,55 @@ double Fidelity::triangle(Index t, const std::array<Vec3, 3>& p,
     const Vec3 g = 2 * w * (b[0] * p[0] + b[1] * p[1] + b[2] * p[2] - samples[s].point);
     for (int k = 0; k < 3; ++k) (*gradient)[k] += b[k] * g;
   }
+  return energy;
+}
+
+double Fidelity::corner(Index t, const std::array<Vec3, 3>& p, int k, Vec3& gradient,
+                        std::array<Vec3, 3>& hessian) const {
+  double energy = 0;
+  const auto add_projector = [&](double weight, const Vec3& n) {
+    hessian[0] += weight * n.x * n;
+    hessian[1] += weight * n.y * n;
+    hessian[2] += weight * n.z * n;
+  };
+  for (int j = 0; j < 3; ++j) {
+    const TangentPlane& plane = edge_planes[t][j];
+    const double weight = weights.to_surface * edge_weights[t] * plane.emphasis;
+    const double height = dot(midpoint(p, j) - plane.point, plane.normal) - plane.offset;
+    energy += weight * height * height;
+    if (j == k) continue;
+    gradient += weight * height * plane.normal;
+    add_projector(0.5 * weight, plane.normal);
+  }
+  if (first[t] < 0) return energy;
+  const TriangleFrame frame(p[0], p[1], p[2]);
+  const Vec3 normal = normalized(area_vector(p));
+  double along_normal = 0;  // summed weights of samples that are pulled along the normal only
+  double isotropic = 0;
+  for (Index s = first[t]; s >= 0; s = samples[s].next) {
+    const Vec3& y = samples[s].point;
+    const ClosestPoint c = frame.closest(y);
+    const double w = weights.to_mesh * samples[s].weight;
+    energy += w * c.squared_distance;
+    const auto& b = c.barycentric;
+    if (b[k] == 0) continue;
+    gradient += 2 * w * b[k] * (b[0] * p[0] + b[1] * p[1] + b[2] * p[2] - y);
+    const double weight = 2 * w * b[k] * b[k];
+    if (c.interior()) {
+      along_normal += weight;
+      continue;
+    }
+    // On an edge the point is free to slide along it, at the corner it is not.
+    isotropic += weight;
+    if (b[k] < 1) {
+      const int other = b[next(k)] > 0 ? next(k) : previous(k);
+      add_projector(-weight, normalized(p[other] - p[k]));
+    }
+  }
+  add_projector(along_normal, normal);
+  hessian[0].x += isotropic;
+  hessian[1].y += isotropic;
+  hessian[2].z += isotropic;
   return energy;
 }
 

@@ -27,7 +27,7 @@ struct Sample {
   Vec3 point;
   double weight = 0;  ///< area it stands for
   Index facet = -1;   ///< of M
-  Index vertex = -1;  ///< of M, if it is one
+  Index ridge = -1;   ///< number among the points of M's vertices and edges, if it is one
   Index next = -1;    ///< next sample of the same triangle of T, -1 at the end
 };
 
@@ -58,6 +58,12 @@ struct FidelityWeights {
 /// `count` samples of M, uniform by area (with sizing: by the density of sites), in the order of
 /// the facets; each stands for the same share of it. Deterministic.
 std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count);
+
+/// Which points of M's vertices and edges can become samples.
+enum class FarRidges {
+  Vertices,          ///< vertices of facets that have samples: few, for the whole mesh at once
+  VerticesAndEdges,  ///< those of their neighbours and points of sharp edges too, near a far place
+};
 
 class Fidelity {
  public:
@@ -95,11 +101,13 @@ class Fidelity {
   /// Points of T that stick out: multiplies by `growth` the weights of vertices and midpoints
   /// farther than `far` from their tangent planes.
   void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);
-  /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
-  /// samples of the given weight; of those added before, multiplies the weights by `growth` where
-  /// they are still far. Returns how many are far.
-  Index emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                               double growth, const parallel::Workers& workers);
+  /// Vertices and sharp edges of M, which samples by area miss: adds points of them farther than
+  /// `far` from T as samples of the given weight; of those added before, multiplies the weights by
+  /// `growth` where they are still far. With `triangles`, only where the samples of these lie.
+  /// Returns how many are far.
+  Index emphasize_far_ridges(const mesh::EditableMesh& mesh, double far, double weight,
+                             double growth, const parallel::Workers& workers, FarRidges which,
+                             const std::vector<Index>* triangles = nullptr);
   /// Gives the samples of these triangles to the nearest of them (after a local edit).
   void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Feet, tangent planes and weights of all vertices and midpoints: by search where there is none
@@ -112,6 +120,10 @@ class Fidelity {
 
   /// Energy of the samples and the edges of a triangle with corners p; adds to `gradient`.
   double triangle(Index t, const std::array<Vec3, 3>& p, std::array<Vec3, 3>* gradient) const;
+  /// Energy of the samples and the edges of a triangle; adds to the gradient by corner k and, with
+  /// feet and closest points frozen (Gauss-Newton), to the Hessian's columns.
+  double corner(Index t, const std::array<Vec3, 3>& p, int k, Vec3& gradient,
+                std::array<Vec3, 3>& hessian) const;
   /// Energy of a vertex at p against its tangent plane; adds to `gradient`.
   double vertex(Index v, const Vec3& p, Vec3* gradient) const;
   /// Mean squared distance of the samples, by weight.

@@ -145,9 +145,9 @@ std::vector<Index> apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, cons
 }
 
 bool PatchScore::operator<(const PatchScore& other) const {
-  return std::tie(folded, bad_valence, outside_promise, outside_goal, energy) <
+  return std::tie(folded, bad_valence, outside_promise, outside_goal, distance, energy) <
          std::tie(other.folded, other.bad_valence, other.outside_promise, other.outside_goal,
-                  other.energy);
+                  other.distance, other.energy);
 }
 
 bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t) {

@@ -34,6 +34,7 @@ struct PatchScore {
   Index bad_valence = 0;      ///< summed distance of the valences from the good ones
   Index outside_promise = 0;  ///< triangles
   Index outside_goal = 0;     ///< triangles
+  double distance = 0;        ///< the largest from the surface, as far as it is asked for
   double energy = 0;
   [[nodiscard]] bool operator<(const PatchScore& other) const;
 };

@@ -14,8 +14,9 @@ namespace nonobtuse::refine {
 
 struct RelaxationOptions {
   energy::ShapeWeights shape;
-  int passes = 1;           ///< over all vertices given
-  bool on_surface = false;  ///< move in the tangent plane and put vertices back onto the surface
+  int passes = 1;             ///< over all vertices given
+  bool on_surface = false;    ///< move in the tangent plane and put vertices back onto the surface
+  bool gauss_newton = false;  ///< cheaper steps, for many trials
 };
 
 /// Energy of everything that depends on vertex v, if it lay at p; adds to `gradient`.

@@ -1,6 +1,7 @@
 // Trying sequences of edits on copies of a patch: edit, relax, compare.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct TrialOptions {
   AngleGoal goal;
   int passes = 6;  ///< Gauss-Seidel passes over the patch, twice
   bool on_surface = false;
+  /// Largest distances beyond this are compared (before the energy), and relaxation works against
+  /// them; infinity: distances count by their energy alone.
+  double far = std::numeric_limits<double>::infinity();
+  bool thorough = false;  ///< against large distances: more sequences get a long relaxation
 };
 
 PatchScore score(const Patch& patch, const TrialOptions& options);

@@ -141,7 +141,8 @@ void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index cen
 }
 
 bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
-                   const TrialOptions& options, const parallel::Workers& workers) {
+                   const TrialOptions& options, const parallel::Workers& workers,
+                   std::vector<Index>* touched) {
   for (Index v : places(mesh, fidelity, net)) {
     ensure_planes(mesh, fidelity, v, 4);
     const std::array<Index, 1> center{v};
@@ -152,9 +153,11 @@ bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
     if (!best) continue;
     const PatchScore before = score(patch, options);
     if (after.folded > before.folded || after.bad_valence > before.bad_valence ||
-        after.outside_promise > before.outside_promise || !std::isfinite(after.energy))
+        after.outside_promise > before.outside_promise || after.distance > before.distance ||
+        !std::isfinite(after.energy))
       continue;
-    best->commit(mesh, fidelity);
+    const std::vector<Index> triangles = best->commit(mesh, fidelity);
+    if (touched) *touched = triangles;
     return true;
   }
   return false;

@@ -18,9 +18,11 @@ Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
                     const std::function<bool()>& keep_going);
 
 /// Makes up for one vertex removed (net = +1) or added (net = -1) elsewhere, where there is room
-/// or crowding; no valence or angle gets worse. Returns whether it found a place.
+/// or crowding; no valence or angle gets worse. Returns whether it found a place; `touched` becomes
+/// the triangles concerned.
 bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
-                   const TrialOptions& options, const parallel::Workers& workers);
+                   const TrialOptions& options, const parallel::Workers& workers,
+                   std::vector<Index>* touched = nullptr);
 
 /// Vertices with a bad valence.
 std::vector<Index> bad_valences(const mesh::EditableMesh& mesh, const ValenceRule& rule);

@@ -9,7 +9,7 @@
 
 #include "refine/angle_goal.h"
 #include "refine/angle_sweeps.h"
-#include "refine/distance_polish.h"
+#include "refine/distance_mending.h"
 #include "refine/fidelity.h"
 #include "refine/flips.h"
 #include "refine/global_descent.h"
@@ -67,7 +67,8 @@ class Refinement {
       if (monitor_.cancelled()) return outside_goal({lo, hi});
       const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
       fidelity_.emphasize_far_points(mesh_, 2 * far, kFarGrowth);
-      fidelity_.emphasize_far_vertices(mesh_, far, kFarWeight, kFarGrowth, workers_);
+      fidelity_.emphasize_far_ridges(mesh_, far, kFarWeight, kFarGrowth, workers_,
+                                     refine::FarRidges::VerticesAndEdges);
       adapt_weights();
       descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }
@@ -82,8 +83,8 @@ class Refinement {
     const Index outside =
         refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,
                              [&](double f) { return tick(0.75 + 0.15 * f); });
-    refine::polish_distance(mesh_, fidelity_, local, workers_,
-                            [&](double f) { return tick(0.9 + 0.05 * f); });
+    refine::mend_distance(mesh_, fidelity_, local, workers_,
+                          [&](double f) { return tick(0.9 + 0.05 * f); });
     refine::separate_sheets(mesh_, fidelity_, local, workers_,
                             [&](double f) { return tick(0.95 + 0.05 * f); });
     return outside == 0 ? 0 : outside_goal(goal);
