@@ -26,26 +26,32 @@ std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>
     const Triangle& t = triangles[half_edge.first];
     return std::max(t[next(half_edge.second)], t[previous(half_edge.second)]);
   };
+  const auto join = [&](const std::pair<Index, int>& one, const std::pair<Index, int>& other) {
+    const auto [t, k] = one;
+    const auto [u, l] = other;
+    const Triangle& a = triangles[t];
+    const Triangle& b = triangles[u];
+    if (a[next(k)] != b[previous(l)] || a[previous(k)] != b[next(l)]) return;
+    adjacent[t][k] = u;
+    adjacent[u][l] = t;
+  };
+  constexpr std::size_t kFew = 16;
   for (Index v = 0; v < count; ++v) {
+    const std::size_t begin = start[v], end = start[v + 1];
+    if (end - begin <= kFew) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t j = i + 1; j < end; ++j) join(half_edges[i], half_edges[j]);
+      continue;
+    }
     // Half-edges of one edge side by side, so that a vertex of any valence costs n log n.
-    std::sort(half_edges.begin() + static_cast<std::ptrdiff_t>(start[v]),
-              half_edges.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
+    std::sort(half_edges.begin() + static_cast<std::ptrdiff_t>(begin),
+              half_edges.begin() + static_cast<std::ptrdiff_t>(end),
               [&](const auto& a, const auto& b) {
                 return std::pair(upper(a), a) < std::pair(upper(b), b);
               });
-    for (std::size_t i = start[v]; i < start[v + 1]; ++i) {
-      const auto [t, k] = half_edges[i];
-      const Triangle& a = triangles[t];
-      for (std::size_t j = i + 1; j < start[v + 1] && upper(half_edges[j]) == upper(half_edges[i]);
-           ++j) {
-        const auto [u, l] = half_edges[j];
-        const Triangle& b = triangles[u];
-        const bool opposite = a[next(k)] == b[previous(l)] && a[previous(k)] == b[next(l)];
-        if (!opposite) continue;
-        adjacent[t][k] = u;
-        adjacent[u][l] = t;
-      }
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t j = i + 1; j < end && upper(half_edges[j]) == upper(half_edges[i]); ++j)
+        join(half_edges[i], half_edges[j]);
   }
   return adjacent;
 }

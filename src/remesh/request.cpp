@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/cleaning.h"
 #include "nonobtuse/error.h"
 #include "nonobtuse/io.h"
 #include "numeric/vec3.h"
@@ -63,6 +64,7 @@ void check_options(const RemeshOptions& options) {
 }
 
 void check_input(const TriangleMesh& input) {
+  if (mesh::needs_no_repair(input)) return;
   const CleanResult cleaned = clean(input);
   if (cleaned.repairs.empty()) return;
   const Repair& first = cleaned.repairs.front();
