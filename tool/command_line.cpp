@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -86,8 +87,7 @@ double parse_number(const std::string& text, const std::string& whole, const cha
 }
 
 void set_edge_length(const std::string& text, RemeshOptions& options) {
-  if (text.empty()) return;
-  if (text.back() == '%') {
+  if (!text.empty() && text.back() == '%') {
     options.relative_edge_length =
         parse_number(text.substr(0, text.size() - 1), text, "--edge-length") / 100;
   } else {
@@ -98,8 +98,9 @@ void set_edge_length(const std::string& text, RemeshOptions& options) {
 Method parse_method(const std::string& text) {
   if (text == "default") return Method::Default;
   if (text == "cvt") return Method::Cvt;
+  if (text == "cvt-fs") return Method::CvtFs;
   if (text == "cvt-nob") return Method::CvtNob;
-  throw UsageError(fmt::format("--method must be default, cvt or cvt-nob, not '{}'", text));
+  throw UsageError(fmt::format("--method must be default, cvt, cvt-fs or cvt-nob, not '{}'", text));
 }
 
 // A file may be called like one of the words if its path says so: ./uniform.
@@ -139,7 +140,7 @@ void add_threads(CLI::App& command, int& threads) {
 // Everything a command line can fill in, before we know which command it names.
 struct Draft {
   RemeshCommand remesh;
-  std::string edge_length;
+  std::optional<std::string> edge_length;
   std::string method = "default";
   std::string sizing = "uniform";
   MeasureCommand measure;
@@ -178,11 +179,25 @@ void add_remesh(CLI::App& app, Draft& draft) {
       ->type_name("G")
       ->capture_default_str();
   command
-      .add_option("--method", draft.method,
-                  "default: CVT, then refinement on the mesh; cvt: CVT alone; cvt-nob: with the "
-                  "short-dual penalty of Yan & Wonka 2016")
-      ->type_name("default|cvt|cvt-nob")
+      .add_option(
+          "--method", draft.method,
+          "default: CVT, then refinement on the mesh; the methods of Yan & Wonka 2016: cvt: "
+          "CVT alone; cvt-fs: then with the feature-sensitive energy; cvt-nob: with the "
+          "short-dual penalty, first without and then with that energy")
+      ->type_name("default|cvt|cvt-fs|cvt-nob")
       ->capture_default_str();
+  command
+      .add_option("--normal-weight", c.options.normal_weight,
+                  "Weight s of the normal part in the feature-sensitive energy of cvt-fs and "
+                  "cvt-nob; 1 leaves it out")
+      ->check(CLI::Range(1.0, 1e6))
+      ->type_name("S")
+      ->capture_default_str();
+  command
+      .add_option("--iterations", c.options.iterations,
+                  "L-BFGS iterations of every stage of cvt, cvt-fs and cvt-nob; default: 40")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
   command.add_option("--penalty", c.options.penalty, "Weight lambda of the penalty of cvt-nob")
       ->check(CLI::NonNegativeNumber)
       ->type_name("LAMBDA")
@@ -214,6 +229,8 @@ void add_remesh(CLI::App& app, Draft& draft) {
   command.add_flag("--progress", c.progress,
                    "Report progress on stderr even if that is no terminal");
   command.add_flag("--json", c.json, "Print a report as JSON (docs/json.md) instead of the table");
+  command.add_flag("--history", c.options.history,
+                   "With --json: energy and number of bad triangles, iteration by iteration");
 }
 
 void add_measure(CLI::App& app, MeasureCommand& c) {
@@ -290,9 +307,13 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
   CommandLine line;
   if (app.got_subcommand("remesh")) {
     RemeshOptions& options = draft.remesh.options;
-    set_edge_length(draft.edge_length, options);
+    if (draft.edge_length) set_edge_length(*draft.edge_length, options);
     options.method = parse_method(draft.method);
     set_sizing(draft.sizing, draft.remesh);
+    if (options.iterations > 0 && options.method == Method::Default)
+      throw UsageError("--iterations is for the methods cvt, cvt-fs and cvt-nob only");
+    if (options.history && !draft.remesh.json)
+      throw UsageError("--history adds to the JSON report: give --json too");
     check_bounds(options.min_angle, options.max_angle);
     if (options.min_angle >= 60) throw UsageError("--min-angle must be below 60");
     check_output(draft.remesh.output);

@@ -27,6 +27,8 @@ const char* name_of(Method method) {
       return "default";
     case Method::Cvt:
       return "cvt";
+    case Method::CvtFs:
+      return "cvt-fs";
     case Method::CvtNob:
       return "cvt-nob";
   }
@@ -119,6 +121,17 @@ Json to_json(const std::vector<StageTime>& stages) {
   return list;
 }
 
+Json to_json(const std::vector<IterationRecord>& history) {
+  Json list = Json::array();
+  for (const IterationRecord& record : history)
+    list.push_back({{"stage", record.stage},
+                    {"iteration", record.iteration},
+                    {"energy", record.energy},
+                    {"obtuse", record.obtuse},
+                    {"small", record.small}});
+  return list;
+}
+
 Json to_json(const SizeRatio& ratio) {
   return {{"median", ratio.median},
           {"percentile_5", ratio.percentile_5},
@@ -136,6 +149,8 @@ Json to_json(const RemeshOptions& options) {
           {"max_angle", options.max_angle},
           {"on_surface", options.on_surface},
           {"penalty", options.penalty},
+          {"normal_weight", options.normal_weight},
+          {"iterations", options.iterations},
           {"seed", options.seed}};
 }
 

@@ -22,6 +22,7 @@ Json to_json(const QualityReport& report, bool with_reference);
 Json to_json(const Certificate& certificate, const TriangleMesh& mesh, Index worst);
 Json to_json(const std::vector<Repair>& repairs);
 Json to_json(const std::vector<StageTime>& stages);
+Json to_json(const std::vector<IterationRecord>& history);
 Json to_json(const SizeRatio& ratio);
 Json to_json(const RemeshOptions& options);
 

@@ -103,6 +103,7 @@ void print_json(const RemeshCommand& command, const Outcome& outcome, int code) 
             {"promise", to_json(outcome.promise, outcome.written, kTrianglesNamed)},
             {"seconds", outcome.seconds},
             {"stages", to_json(outcome.result.stages)}};
+  if (command.options.history) json["history"] = to_json(outcome.result.history);
   if (outcome.distance) json["distance"] = to_json(*outcome.distance);
   fmt::print("{}", dump(json));
 }
@@ -124,6 +125,11 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
   if (!outcome.goal.certified && (goal.min_angle != 30 || goal.max_angle != 90))
     fmt::print("{}", certificate_text(path, outcome.written, outcome.promise, 0));
   if (outcome.result.status == Status::Cancelled) fmt::print("cancelled: the best mesh so far\n");
+  if (!command.no_distance && !outcome.distance && outcome.result.status != Status::Cancelled)
+    fmt::print(
+        "distance not measured, for more than {} triangles in all: 'nonobtuse measure {} --against "
+        "{}' does\n",
+        kDistanceLimit, path, command.input);
   fmt::print("{} written, {:.2f} s from reading to the certified file\n", path, outcome.seconds);
 }
 

@@ -57,13 +57,17 @@ TriangleMesh as_written(const std::string& path, const TriangleMesh& mesh,
 struct CleanResult {
   TriangleMesh mesh;
   std::vector<Repair> repairs;
+  /// What is unusual, but needs no repair: edges of three or more faces, vertices where several
+  /// fans of faces touch. Remeshing keeps them.
+  std::vector<Repair> kept;
 };
 
 /// Makes a mesh fit for `remesh`: drops degenerate faces (repeated vertex or exactly no area) and
-/// unused vertices, turns faces that disagree with their neighbours. Reports each repair.
+/// unused vertices, turns faces that disagree with their neighbours. Reports each repair. Patches
+/// that meet along an edge of three or more faces are oriented each by itself.
 /// Throws InvalidInput, with the element's index, for what cannot be mended: non-finite
-/// coordinates, indices out of range, an edge with three faces, a vertex where several fans meet,
-/// a surface that cannot be oriented, nothing but degenerate faces.
+/// coordinates, indices out of range, a surface that cannot be oriented, nothing but degenerate
+/// faces.
 CleanResult clean(const TriangleMesh& mesh);
 
 }  // namespace nonobtuse

@@ -12,7 +12,9 @@ namespace nonobtuse {
 enum class Method {
   Default,  ///< CVT, then refinement on the mesh: all angles inside the bounds
   Cvt,      ///< centroidal Voronoi tessellation alone (Yan & Wonka 2016, Eq. 1)
-  CvtNob,   ///< CVT, valence optimisation, short-dual penalty (Yan & Wonka 2016, Eq. 3-4)
+  CvtFs,    ///< CVT, then the feature-sensitive energy (Yan & Wonka 2016, Eq. 2)
+  CvtNob,   ///< CVT, valence optimisation, short-dual penalty (Yan & Wonka 2016, Eq. 3-4), then
+            ///< the same penalty with the feature-sensitive energy
 };
 
 /// How the target edge length varies over the surface.
@@ -47,6 +49,15 @@ struct RemeshOptions {
   bool on_surface = false;
   /// Weight lambda of the short-dual penalty in `Method::CvtNob` (Eq. 3), times area / vertices.
   double penalty = 0.01;
+  /// Weight s of the normal part of the feature-sensitive energy (Eq. 2), at least 1, in
+  /// `Method::CvtFs` and `Method::CvtNob`; 1 leaves it out.
+  double normal_weight = 5;
+  /// L-BFGS iterations of every stage of the paper's methods (`Cvt`, `CvtFs`, `CvtNob`), at most;
+  /// 0 = 40. Not used by `Method::Default`, which stops by itself.
+  int iterations = 0;
+  /// Note energy and bad triangles of iterations in `RemeshResult::history`. The mesh stays the
+  /// same; finding out how many triangles of a CVT are obtuse costs time.
+  bool history = false;
   /// Seed of the random sampling. Same input, options and seed: same bytes.
   std::uint64_t seed = 0;
 };

@@ -22,6 +22,15 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// What is known after one iteration of an optimiser.
+struct IterationRecord {
+  std::string stage;  ///< as in StageTime
+  int iteration = 0;  ///< from 0, the start, in this stage (several components: one after another)
+  double energy = 0;  ///< what the stage minimises, in units of area / #V = 1
+  Index obtuse = 0;   ///< triangles with an angle of 90 degrees and more
+  Index small = 0;    ///< triangles with an angle below 30 degrees
+};
+
 /// How the edges of the result realise the target edge lengths: actual length over target (the mean
 /// of that at both ends), over all edges. The target of a uniform mesh is the edge of a regular
 /// triangulation with as many vertices.
@@ -41,6 +50,7 @@ struct RemeshResult {
   std::vector<Index> source_triangle;  ///< #V: triangle of the (cleaned) input nearest to a vertex
   std::vector<Vec3> barycentric;       ///< #V by 3: the nearest point's coordinates in it
   std::vector<StageTime> stages;       ///< in the order they ran; a stage may occur once
+  std::vector<IterationRecord> history;  ///< with RemeshOptions::history, in order; else empty
 };
 
 }  // namespace nonobtuse

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-_METHODS = ("default", "cvt", "cvt-nob")
+_METHODS = ("default", "cvt", "cvt-fs", "cvt-nob")
 _SIZINGS = ("uniform", "lfs", "curvature", "given")
 _NAMED = 5  # triangles that a report names
 
@@ -30,7 +30,7 @@ def remesh(
     vertices: int | None = None,
     edge_length: float | str | None = None,
     relative_edge_length: float | None = None,
-    method: Literal["default", "cvt", "cvt-nob"] = "default",
+    method: Literal["default", "cvt", "cvt-fs", "cvt-nob"] = "default",
     sizing: Literal["uniform", "lfs", "curvature", "given"] | None = None,
     target_lengths: ArrayLike | None = None,
     gradation: float = 0.25,
@@ -38,6 +38,9 @@ def remesh(
     max_angle: float = 80,
     on_surface: bool = False,
     penalty: float = 0.01,
+    normal_weight: float = 5,
+    iterations: int = 0,
+    history: bool = False,
     seed: int = 0,
     threads: int = 0,
     progress: Callable[[str, float, str], object] | None = None,
@@ -49,7 +52,8 @@ def remesh(
     vertices: number of output vertices, exactly; by default as many as the input has.
     edge_length: target edge length in input units instead, or with a per cent sign ("1%") relative
         to the diagonal of the bounding box; relative_edge_length: the same as a fraction (0.01).
-    method: "default"; "cvt", centroidal Voronoi tessellation alone; "cvt-nob", the paper's own.
+    method: "default"; the paper's "cvt", centroidal Voronoi tessellation alone, "cvt-fs", then with
+        the feature-sensitive energy, and "cvt-nob", with the short-dual penalty.
     sizing: how the target edge length varies: "uniform"; "lfs", with the root of the local feature
         size; "curvature"; "given", by target_lengths (n,), one for each vertex of V, which without
         vertices or edge_length also say how many there will be. By default "given" if there are
@@ -58,6 +62,10 @@ def remesh(
     min_angle, max_angle: bounds to reach, degrees. The promise is [30, 90).
     on_surface: keep vertices on the input, not at the offset that minimises the distance.
     penalty: weight of the short-dual penalty of "cvt-nob".
+    normal_weight: weight s of the normal part in the feature-sensitive energy of "cvt-fs" and
+        "cvt-nob"; 1 leaves it out.
+    iterations: of L-BFGS in every stage of the paper's methods; 0 takes 40.
+    history: note energy and bad triangles of iterations in ``report["history"]``.
     seed: of the random start. Same input, options and seed: same bits.
     threads: 0 takes all cores; the result does not depend on it.
     progress: called as progress(stage, fraction, message) in this thread; returning False cancels
@@ -84,6 +92,9 @@ def remesh(
         max_angle=max_angle,
         on_surface=on_surface,
         penalty=penalty,
+        normal_weight=normal_weight,
+        iterations=iterations,
+        history=history,
         seed=seed,
     )
     if progress is not None and not callable(progress):
@@ -142,6 +153,9 @@ def _options(
         "max_angle": _arrays.number(others["max_angle"], "max_angle"),
         "on_surface": bool(others["on_surface"]),
         "penalty": _arrays.number(others["penalty"], "penalty"),
+        "normal_weight": _arrays.number(others["normal_weight"], "normal_weight"),
+        "iterations": _arrays.whole_number(others["iterations"], "iterations"),
+        "history": bool(others["history"]),
         "seed": _arrays.whole_number(others["seed"], "seed", 2**64 - 1),
     }
 
@@ -157,7 +171,7 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
     result.report = Report(
         version=_core.version,
         status=result.status.value,
-        options={name: v for name, v in options.items() if name != "target_lengths"},
+        options={name: v for name, v in options.items() if name not in ("target_lengths", "history")},
         repairs=outcome["repairs"],
         before=outcome["before"],
         before_vertices=len(result.source.vertices),
@@ -169,6 +183,8 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         stages=outcome["stages"],
         size_ratio=outcome["size_ratio"],
     )
+    if options["history"]:
+        result.report["history"] = outcome["history"]
     return result
 
 

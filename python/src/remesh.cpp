@@ -105,6 +105,7 @@ const char* name_of(Status status) {
 
 Method method_of(const std::string& name) {
   if (name == "cvt") return Method::Cvt;
+  if (name == "cvt-fs") return Method::CvtFs;
   if (name == "cvt-nob") return Method::CvtNob;
   return Method::Default;  // the Python side has checked the name
 }
@@ -122,6 +123,20 @@ nb::dict to_dict(const SizeRatio& ratio) {
   d["percentile_5"] = ratio.percentile_5;
   d["percentile_95"] = ratio.percentile_95;
   return d;
+}
+
+nb::list to_list(const std::vector<IterationRecord>& history) {
+  nb::list list;
+  for (const IterationRecord& record : history) {
+    nb::dict entry;
+    entry["stage"] = record.stage;
+    entry["iteration"] = record.iteration;
+    entry["energy"] = record.energy;
+    entry["obtuse"] = record.obtuse;
+    entry["small"] = record.small;
+    list.append(entry);
+  }
+  return list;
 }
 
 nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
@@ -145,6 +160,7 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["before"] = angles_dict(outcome.before);
   d["stages"] = stages;
   d["size_ratio"] = to_dict(result.size_ratio);
+  d["history"] = to_list(result.history);
   d["repairs"] = to_list(outcome.repairs);
   d["repaired"] = outcome.repairs.empty()
                       ? nb::none()
@@ -157,8 +173,8 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
                        double edge_length, double relative_edge_length, const std::string& method,
                        const std::string& sizing, const LengthArray& target_lengths,
                        double gradation, double min_angle, double max_angle, bool on_surface,
-                       double penalty, std::uint64_t seed, int threads, nb::object progress,
-                       bool clean_first) {
+                       double penalty, double normal_weight, int iterations, bool history,
+                       std::uint64_t seed, int threads, nb::object progress, bool clean_first) {
   const TriangleMesh given = mesh_of(vertices, faces);
   RemeshOptions options;
   options.vertices = count;
@@ -173,6 +189,9 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
   options.max_angle = max_angle;
   options.on_surface = on_surface;
   options.penalty = penalty;
+  options.normal_weight = normal_weight;
+  options.iterations = iterations;
+  options.history = history;
   options.seed = seed;
   Watcher watcher(std::move(progress));
   Context context;
@@ -193,7 +212,8 @@ void bind_remesh(nb::module_& module) {
              nb::arg("edge_length"), nb::arg("relative_edge_length"), nb::arg("method"),
              nb::arg("sizing"), nb::arg("target_lengths"), nb::arg("gradation"),
              nb::arg("min_angle"), nb::arg("max_angle"), nb::arg("on_surface"), nb::arg("penalty"),
-             nb::arg("seed"), nb::arg("threads"), nb::arg("progress").none(), nb::arg("clean"));
+             nb::arg("normal_weight"), nb::arg("iterations"), nb::arg("history"), nb::arg("seed"),
+             nb::arg("threads"), nb::arg("progress").none(), nb::arg("clean"));
 }
 
 }  // namespace nonobtuse::python

@@ -19,7 +19,8 @@ std::vector<double> short_dual_weights(std::span<const Vec3> sites,
 
 double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const rvd::DualEdge> edges,
                               std::span<const double> weights, std::span<const Vec3> normals,
-                              double scale, std::span<Vec3> gradient, std::span<double> diagonal) {
+                              std::span<const double> scale, std::span<Vec3> gradient,
+                              std::span<double> diagonal) {
   // Serial: three passes over 3n edges, about a hundredth of the Voronoi diagram they come from.
   std::vector<Vec3> r(sites.size());
   std::vector<double> sum(sites.size(), 0);
@@ -30,23 +31,24 @@ double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const rvd::
     r[j] -= pull;
     sum[i] += weights[e];
     sum[j] += weights[e];
-    const double squared_weight = 2 * scale * weights[e] * weights[e];
-    diagonal[i] += squared_weight;
-    diagonal[j] += squared_weight;
+    const double squared_weight = 2 * weights[e] * weights[e];
+    diagonal[i] += scale[j] * squared_weight;
+    diagonal[j] += scale[i] * squared_weight;
   }
   double value = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
     if (!normals.empty()) r[i] -= dot(r[i], normals[i]) * normals[i];
-    value += squared_length(r[i]);
-    diagonal[i] += 2 * scale * sum[i] * sum[i];
+    value += scale[i] * squared_length(r[i]);
+    diagonal[i] += 2 * scale[i] * sum[i] * sum[i];
+    r[i] *= scale[i];
   }
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto [i, j, dual] = edges[e];
-    const Vec3 g = 2 * scale * weights[e] * (r[i] - r[j]);
+    const Vec3 g = 2 * weights[e] * (r[i] - r[j]);
     gradient[i] += g;
     gradient[j] -= g;
   }
-  return scale * value;
+  return value;
 }
 
 }  // namespace nonobtuse::energy

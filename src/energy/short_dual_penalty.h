@@ -24,9 +24,11 @@ std::vector<double> short_dual_weights(std::span<const Vec3> sites,
                                        std::span<const rvd::DualEdge> edges,
                                        double relative_epsilon);
 
-/// Returns scale * R for given weights, and adds its gradient (exact for frozen weights) and the
-/// diagonal of its second derivatives, 2 scale ((sum_j w)^2 + sum_j w^2), to `gradient` (#X) and
-/// `diagonal` (#X).
+/// Returns sum_i scale_i |r_i|^2 for given weights, and adds its gradient (exact for frozen
+/// weights) and the diagonal of its second derivatives, 2 (scale_i (sum_j w)^2 + sum_j scale_j
+/// w^2), to `gradient` (#X) and `diagonal` (#X). `scale` (#X) is lambda times the mean area of a
+/// cell; with a density times the mean density of the cell, since |r_i|^2 grows with the square of
+/// the local size while the CVT energy of a cell is everywhere the same.
 ///
 /// r_i has a normal part, of the size of the mean curvature: sites free to leave the surface are
 /// drawn inwards by it, sites held on the surface are drawn to where the curvature changes. With
@@ -34,6 +36,7 @@ std::vector<double> short_dual_weights(std::span<const Vec3> sites,
 /// R is Eq. 4 to the letter.
 double add_short_dual_penalty(std::span<const Vec3> sites, std::span<const rvd::DualEdge> edges,
                               std::span<const double> weights, std::span<const Vec3> normals,
-                              double scale, std::span<Vec3> gradient, std::span<double> diagonal);
+                              std::span<const double> scale, std::span<Vec3> gradient,
+                              std::span<double> diagonal);
 
 }  // namespace nonobtuse::energy

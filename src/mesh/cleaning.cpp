@@ -1,5 +1,6 @@
-// From what a file holds to a manifold, oriented surface without degenerate faces: repairs that
-// leave no doubt are made and reported, everything else is refused with its place.
+// From what a file holds to oriented surfaces without degenerate faces, which may meet along edges
+// and in vertices: repairs that leave no doubt are made and reported, everything else is refused
+// with its place.
 #include "mesh/cleaning.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/cut.h"
 #include "mesh/degenerate_faces.h"
 #include "mesh/topology.h"
 #include "nonobtuse/io.h"
@@ -65,8 +67,10 @@ bool one_fan_each(const TriangleMesh& mesh, const std::vector<std::array<Index, 
 
 class Cleaner {
  public:
-  explicit Cleaner(const TriangleMesh& mesh) : mesh_(mesh), source_(mesh.triangles.size()) {
+  explicit Cleaner(const TriangleMesh& mesh)
+      : mesh_(mesh), source_(mesh.triangles.size()), original_(mesh.vertices.size()) {
     std::iota(source_.begin(), source_.end(), Index{0});
+    std::iota(original_.begin(), original_.end(), Index{0});
   }
 
   CleanResult run() {
@@ -74,14 +78,16 @@ class Cleaner {
     drop_duplicates();
     drop_degenerate_at_crowded_edges();
     refuse_nothing_left();
-    orient();
-    refuse_several_fans("Vertex ");
     report_unused_vertices();
-    remove_degenerate();
+    part();
+    orient();
+    // Dropping faces may leave fans that touch in a point; parted, they are manifolds again.
+    while (remove_degenerate()) part();
     refuse_nothing_left();
-    refuse_several_fans("Once faces without area are dropped, vertex ");
+    join();
     drop_unused_vertices();
-    return {std::move(mesh_), std::move(repairs_)};
+    report_kept();
+    return {std::move(mesh_), std::move(repairs_), std::move(kept_)};
   }
 
  private:
@@ -170,25 +176,56 @@ class Cleaner {
       throw InvalidInput("Every triangle is degenerate: there is no surface.", 0);
   }
 
-  void refuse_crowded_edges(const std::vector<mesh::EdgeSide>& sides) const {
+  // Patches that meet along edges of three or more faces, and fans that touch in a vertex, get
+  // copies of their common vertices: each is then a manifold, to be oriented and mended by itself.
+  void part() {
+    mesh::Cut cut = mesh::cut_to_manifold(mesh_.triangles, vertex_count(),
+                                          mesh::edge_sides(mesh_.triangles, vertex_count()));
+    mesh_.triangles = std::move(cut.triangles);
+    for (std::size_t v = original_.size(); v < cut.original.size(); ++v) {
+      original_.push_back(original_[cut.original[v]]);
+      mesh_.vertices.push_back(mesh_.vertices[cut.original[v]]);
+    }
+  }
+
+  // Undoes `part`.
+  void join() {
+    for (Triangle& t : mesh_.triangles)
+      for (Index& v : t) v = original_[v];
+    drop_repeated_vertices();
+  }
+
+  // What is no repair but good to know: where the surface is no manifold.
+  void report_kept() {
+    const auto sides = mesh::edge_sides(mesh_.triangles, vertex_count());
+    Index crowded = 0;
+    Index first_crowded = -1;
+    std::vector<char> seen(mesh_.vertices.size(), 0);
     mesh::for_each_edge(sides, [&](const mesh::EdgeSide* first, const mesh::EdgeSide* last) {
       if (last - first <= 2) return;
-      const auto face = [&](int i) { return number(source_[first[i].triangle]); };
-      throw InvalidInput("The edge between vertices " + number(first->low) + " and " +
-                             number(first->high) + " has " + std::to_string(last - first) +
-                             " faces (" + face(0) + ", " + face(1) + ", " + face(2) +
-                             (last - first > 3 ? ", ..." : "") +
-                             "), a surface at most two; delete the others or part the surface "
-                             "along this edge.",
-                         source_[first[2].triangle]);
+      if (crowded++ == 0) first_crowded = first->triangle;
+      seen[first->low] = seen[first->high] = 1;
     });
+    Index touching = 0;
+    Index first_touching = -1;
+    const mesh::Cut cut = mesh::cut_to_manifold(mesh_.triangles, vertex_count(), sides);
+    for (std::size_t v = mesh_.vertices.size(); v < cut.original.size(); ++v) {
+      const Index w = cut.original[v];
+      if (seen[w]++ != 0) continue;
+      ++touching;
+      if (first_touching < 0 || w < first_touching) first_touching = w;
+    }
+    if (crowded > 0)
+      kept_.push_back({"edges of three or more faces kept as curves where patches meet", crowded,
+                       first_crowded});
+    if (touching > 0)
+      kept_.push_back(
+          {"vertices where several fans of faces touch kept as points", touching, first_touching});
   }
 
   void orient() {
-    const auto sides = mesh::edge_sides(mesh_.triangles, vertex_count());
-    refuse_crowded_edges(sides);
-    const mesh::Orientation orientation =
-        mesh::consistent_orientation(mesh_.triangles.size(), sides);
+    const mesh::Orientation orientation = mesh::consistent_orientation(
+        mesh_.triangles.size(), mesh::edge_sides(mesh_.triangles, vertex_count()));
     if (orientation.contradiction >= 0)
       throw InvalidInput("The surface has one side only, as a Moebius strip: around triangle " +
                              number(source_[orientation.contradiction]) +
@@ -201,26 +238,18 @@ class Cleaner {
            source_[orientation.first]);
   }
 
-  void refuse_several_fans(const std::string& subject) const {
-    const Index v = mesh::vertex_with_several_fans(
-        mesh_.triangles, vertex_count(), mesh::edge_sides(mesh_.triangles, vertex_count()));
-    if (v >= 0)
-      throw InvalidInput(subject + number(v) +
-                             " joins several fans of faces that touch in this point alone; give "
-                             "each fan its own copy of the vertex.",
-                         v);
-  }
-
-  void remove_degenerate() {
+  // Returns whether there were any.
+  bool remove_degenerate() {
     Index first = -1;
     for (std::size_t t = mesh_.triangles.size(); t-- > 0;)
       if (has_no_area(static_cast<Index>(t))) first = source_[t];
-    if (first < 0) return;
+    if (first < 0) return false;
     const mesh::DegenerateRemoval removal = mesh::remove_degenerate_faces(mesh_);
     report("faces without area removed by flipping their longest edge", removal.flipped, first);
     report("vertices merged to remove faces without area", removal.collapsed, first);
     report("faces without area dropped", removal.dropped - removal.opened, first);
     report("faces without area dropped that leave a slit", removal.opened, first);
+    return true;
   }
 
   // 1 for every vertex that some triangle names.
@@ -253,8 +282,10 @@ class Cleaner {
   }
 
   TriangleMesh mesh_;
-  std::vector<Index> source_;  // number in the input of each triangle left
+  std::vector<Index> source_;    // number in the input of each triangle left
+  std::vector<Index> original_;  // vertex before `part`
   std::vector<Repair> repairs_;
+  std::vector<Repair> kept_;
 };
 
 }  // namespace
@@ -279,7 +310,7 @@ bool mesh::needs_no_repair(const TriangleMesh& mesh) {
 }
 
 CleanResult clean(const TriangleMesh& mesh) {
-  if (mesh::needs_no_repair(mesh)) return {mesh, {}};
+  if (mesh::needs_no_repair(mesh)) return {mesh, {}, {}};
   return Cleaner(mesh).run();
 }
 

@@ -254,14 +254,18 @@ std::vector<Index> EditableMesh::compact() {
     if (!alive_vertex(v)) continue;
     new_vertex[v] = static_cast<Index>(old_vertex.size());
     positions[old_vertex.size()] = positions[v];
+    if (!knot.empty()) knot[old_vertex.size()] = knot[v];
     old_vertex.push_back(v);
   }
   positions.resize(old_vertex.size());
+  std::vector<Index> kept_knot = std::move(knot);
+  if (!kept_knot.empty()) kept_knot.resize(old_vertex.size());
   std::vector<Triangle> triangles;
   triangles.reserve(triangle_count_);
   for (const Triangle& t : triangles_)
     if (t[0] >= 0) triangles.push_back({new_vertex[t[0]], new_vertex[t[1]], new_vertex[t[2]]});
   *this = EditableMesh(std::move(positions), std::move(triangles));
+  knot = std::move(kept_knot);
   return old_vertex;
 }
 
@@ -327,6 +331,7 @@ void EditableMesh::set_first_triangle(Index v, Index t) {
 
 Index EditableMesh::add_vertex(const Vec3& position, int valence) {
   positions.push_back(position);
+  if (!knot.empty()) knot.push_back(-1);
   vertex_triangle_.push_back(-1);
   valence_.push_back(valence);
   ++vertex_count_;

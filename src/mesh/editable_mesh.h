@@ -25,6 +25,9 @@ class EditableMesh {
   EditableMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
 
   std::vector<Vec3> positions;  ///< #V by 3; free to move at any time
+  /// #V: the vertex's knot on a curve network, -1 for none; or empty if no vertex has one. Edits
+  /// and `compact` keep it; new vertices have none.
+  std::vector<Index> knot;
 
   [[nodiscard]] Index vertex_capacity() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] Index triangle_capacity() const { return static_cast<Index>(triangles_.size()); }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "nonobtuse/context.h"
+#include "nonobtuse/result.h"
 
 namespace nonobtuse::parallel {
 
@@ -13,7 +15,9 @@ namespace nonobtuse::parallel {
 /// Belongs to the calling thread; only `cancelled` may be asked from others.
 class Monitor {
  public:
-  explicit Monitor(const Context& context) : context_(context) {}
+  /// Iterations are noted in `history` unless it is null.
+  explicit Monitor(const Context& context, std::vector<IterationRecord>* history = nullptr)
+      : context_(context), history_(history) {}
 
   /// A stage covers [from, to] of the whole call.
   void begin_stage(std::string_view stage, double from, double to) {
@@ -34,10 +38,19 @@ class Monitor {
     return !cancelled();
   }
 
+  /// Whether it is worth finding out what `record` wants to know.
+  [[nodiscard]] bool recording() const { return history_ != nullptr; }
+
+  /// Notes an iteration of the present stage.
+  void record(int iteration, double energy, Index obtuse, Index small) {
+    if (history_ != nullptr) history_->push_back({stage_, iteration, energy, obtuse, small});
+  }
+
   [[nodiscard]] bool cancelled() const { return stopped_ || context_.cancelled(); }
 
  private:
   const Context& context_;
+  std::vector<IterationRecord>* history_;
   std::string stage_;
   double from_ = 0;
   double to_ = 1;

@@ -9,6 +9,7 @@
 #include "energy/cvt.h"
 #include "optimize/lbfgs.h"
 #include "remesh/initial_sampling.h"
+#include "remesh/restricted_diagram.h"
 #include "spatial/hilbert_order.h"
 
 namespace nonobtuse::pipeline {
@@ -62,7 +63,7 @@ void divide_by_mass(const rvd::CellIntegrals& cells, std::span<const Vec3> in, s
 
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
                     double tolerance, const parallel::Workers& workers,
-                    const std::function<bool(int)>& callback) {
+                    const std::function<bool(const DescentState&)>& callback) {
   optimize::LbfgsHistory history(kPairs);
   Iterate here;
   here.sites = sites;
@@ -72,7 +73,7 @@ double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int
   double step = 1;
   double energy_at_stride = here.cells.energy;
   for (int k = 1; k < evaluations; ++k) {
-    if (callback && !callback(k)) break;
+    if (callback && !callback({k, here.cells.energy, here.sites})) break;
     if (k % kStride == 0) {
       if (energy_at_stride - here.cells.energy < tolerance * here.cells.energy) break;
       energy_at_stride = here.cells.energy;
@@ -192,6 +193,20 @@ void insert_midpoints(const mesh::Surface& surface, const Components& components
   sort_along_curve(sites);
 }
 
+// Ever more rarely, since the exact diagram takes several times as long as an evaluation.
+bool is_recorded(int iteration) {
+  return iteration <= 20 || (iteration <= 100 && iteration % 5 == 0) || iteration % 50 == 0;
+}
+
+// Notes the energy and, from the exact diagram, the bad triangles.
+void record(const mesh::Surface& surface, const DescentState& state,
+            const parallel::Workers& workers, parallel::Monitor& monitor) {
+  if (!monitor.recording()) return;
+  const RestrictedDiagram diagram = restricted_diagram(surface, state.sites, workers);
+  const BadTriangles bad = count_bad_triangles(state.sites, diagram.triangles);
+  monitor.record(state.evaluations - 1, state.energy, bad.obtuse, bad.small);
+}
+
 }  // namespace
 
 std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& options,
@@ -212,10 +227,19 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
   for (std::size_t level = quotas.size(); level-- > 0;) {
     rvd::CellEvaluator evaluator(surface, static_cast<Index>(sites.points.size()), workers);
     const int evaluations = level == 0 ? options.iterations : options.coarse_iterations;
-    if (!monitor.cancelled())
-      minimize_cvt(evaluator, sites.points, evaluations,
-                   level == 0 ? options.tolerance : options.coarse_tolerance, workers,
-                   [&](int k) { return monitor.tick((done + k) / std::max(total, 1.0)); });
+    if (!monitor.cancelled()) {
+      int made = 1;
+      const double energy =
+          minimize_cvt(evaluator, sites.points, evaluations,
+                       level == 0 ? options.tolerance : options.coarse_tolerance, workers,
+                       [&](const DescentState& state) {
+                         made = state.evaluations + 1;
+                         if (level == 0 && is_recorded(state.evaluations - 1))
+                           record(surface, state, workers, monitor);
+                         return monitor.tick((done + state.evaluations) / std::max(total, 1.0));
+                       });
+      if (level == 0) record(surface, {made, energy, sites.points}, workers, monitor);
+    }
     done += evaluations;
     if (level == 0) break;
     rvd::CellIntegrals cells;  // adjacency of the sites kept, whatever was tried last

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "mesh/surface.h"
@@ -40,12 +41,19 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
 /// Evaluations between two looks at the energy by which a descent ends early.
 inline constexpr int kStride = 5;
 
+/// Where a descent stands.
+struct DescentState {
+  int evaluations = 0;  ///< made so far
+  double energy = 0;    ///< least so far
+  std::span<const Vec3> sites;
+};
+
 /// Minimises the CVT energy by L-BFGS (m = 7, preconditioned by the cells' masses) with at most
 /// `evaluations` evaluations, or until `kStride` of them gain less than `tolerance` (relative); the
-/// first step is Lloyd's. `sites` become the best found. `callback` (may be empty) hears the number
-/// of each evaluation; returning false stops. Returns the energy.
+/// first step is Lloyd's. `sites` become the best found. `callback` (may be empty) hears of each
+/// evaluation before it is made; returning false stops. Returns the energy.
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
                     double tolerance, const parallel::Workers& workers,
-                    const std::function<bool(int)>& callback);
+                    const std::function<bool(const DescentState&)>& callback);
 
 }  // namespace nonobtuse::pipeline

@@ -10,6 +10,7 @@
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
+#include "remesh/penalized_energy.h"
 
 namespace nonobtuse::pipeline {
 
@@ -20,23 +21,9 @@ enum class ValenceStep {
   Edits,       ///< edits of the mesh (valence_optimization.h), whose vertices are the new sites
 };
 
-/// Terms added to the CVT energy of Eq. 1 (uniform density, without factor 1/2), each scaled so
-/// that its weight means the same for any model and number of sites. All may be combined.
+/// The removal of obtuse angles, with the energy of Eq. 1 and penalties.
 struct PaperOptions {
-  /// lambda of Eq. 3, times area / #X. Useful from .003 to .03; at .1 and above the penalty is far
-  /// stiffer than the CVT (126 times at 1): it over-smooths and stalls.
-  double short_dual = 0.01;
-  /// epsilon of Eq. 4, relative to the edge's length.
-  double relative_epsilon = 0.1;
-  /// Drop the normal part of the penalty's vectors r_i. Without (as in the paper) sites that are
-  /// held on the surface come out closer to it, with it the angles are a little better.
-  bool tangential = false;
-  /// Weight of the circumcentre term (Sieger et al. 2010), times area / #X; not in the paper.
-  double circumcentre = 0;
-  /// Weight of the angle hinge, times 6.23 F_cvt / #X; not in the paper.
-  double hinge = 0;
-  double hinge_small = 35;  ///< degrees: smaller angles are penalised by the hinge
-  double hinge_large = 86;  ///< degrees: larger ones too
+  PenaltyWeights weights = {.short_dual = 0.01};
   ValenceStep valence = ValenceStep::Edits;
   int resampling_rounds = 20;  ///< with ValenceStep::Resampling
   std::uint64_t seed = 0;      ///< with ValenceStep::Resampling
@@ -50,5 +37,13 @@ struct PaperOptions {
 std::vector<Vec3> optimize_paper_nob(const mesh::Surface& surface, std::vector<Vec3> sites,
                                      const PaperOptions& options, const parallel::Workers& workers,
                                      parallel::Monitor& monitor);
+
+/// The feature-sensitive stage: minimises Eq. 2 with penalties from sites that a stage before left,
+/// in at most `iterations`. With a penalty the best sites are chosen as above, so that angles never
+/// get worse; without one they are those of the least energy (by cells that are no discs first).
+std::vector<Vec3> optimize_feature_sensitive(const mesh::Surface& surface, std::vector<Vec3> sites,
+                                             const PenaltyWeights& weights, int iterations,
+                                             const parallel::Workers& workers,
+                                             parallel::Monitor& monitor);
 
 }  // namespace nonobtuse::pipeline

@@ -15,6 +15,7 @@
 #include "refine/global_descent.h"
 #include "refine/sheet_separation.h"
 #include "refine/valence_mending.h"
+#include "remesh/restricted_diagram.h"
 
 namespace nonobtuse::pipeline {
 namespace {
@@ -85,6 +86,15 @@ class Refinement {
  private:
   bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
 
+  void record() {
+    if (!monitor_.recording()) return;
+    std::vector<Vec3> gradient;
+    const double energy = descent_.evaluate(gradient);
+    const TriangleMesh now = mesh_.to_mesh();
+    const BadTriangles bad = count_bad_triangles(now.vertices, now.triangles);
+    monitor_.record(done_, energy, bad.obtuse, bad.small);
+  }
+
   [[nodiscard]] Index outside_goal(const refine::AngleGoal& goal) const {
     return static_cast<Index>(refine::triangles_outside(mesh_, refine::AngleTest(goal)).size());
   }
@@ -114,8 +124,11 @@ class Refinement {
       refine::flip_edges(mesh_, fidelity_, shape);
       fidelity_.update_planes(mesh_, workers_);
       descent_.freeze();
-      descent_.run(std::min(kStepsBetweenFlips, iterations - done),
-                   [&] { return !monitor_.cancelled(); });
+      if (done_ == 0) record();
+      const int steps = std::min(kStepsBetweenFlips, iterations - done);
+      descent_.run(steps, [&] { return !monitor_.cancelled(); });
+      done_ += steps;
+      record();
     }
     if (monitor_.cancelled()) return;
     fidelity_.walk_samples(mesh_, workers_);
@@ -130,6 +143,7 @@ class Refinement {
   spatial::TriangleBvh bvh_;
   refine::Fidelity fidelity_;
   refine::GlobalDescent descent_;
+  int done_ = 0;  // iterations of the descents so far
 };
 
 }  // namespace

@@ -37,11 +37,24 @@ mesh::EditableMesh sites_and_mesh(const mesh::Surface& surface, Index n,
   std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
     return pipeline::optimize_cvt(surface, pipeline::cvt_options(options, n), workers, monitor);
   });
+  const bool feature_sensitive =
+      (options.method == Method::CvtFs || options.method == Method::CvtNob) &&
+      options.normal_weight > 1;
+  const double penalty = options.method == Method::CvtNob ? options.penalty : 0;
+  const int iterations = pipeline::paper_iterations(options);
   if (options.method == Method::CvtNob)
-    sites = clock.run("obtuse removal", 0.1, 0.4, [&] {
-      return pipeline::optimize_paper_nob(surface, std::move(sites),
-                                          {.short_dual = options.penalty, .seed = options.seed},
-                                          workers, monitor);
+    sites = clock.run("obtuse removal", 0.1, 0.25, [&] {
+      return pipeline::optimize_paper_nob(
+          surface, std::move(sites),
+          {.weights = {.short_dual = penalty}, .seed = options.seed, .iterations = iterations},
+          workers, monitor);
+    });
+  if (feature_sensitive)
+    sites = clock.run("feature-sensitive", 0.25, 0.4, [&] {
+      return pipeline::optimize_feature_sensitive(
+          surface, std::move(sites),
+          {.normal_weight = options.normal_weight, .short_dual = penalty}, iterations, workers,
+          monitor);
     });
   return clock
       .run("extraction", 0.4, 0.5,
@@ -124,7 +137,8 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   pipeline::check_options(options);
   pipeline::check_input(input);
   const parallel::Workers workers(context.threads);
-  parallel::Monitor monitor(context);
+  std::vector<IterationRecord> history;
+  parallel::Monitor monitor(context, options.history ? &history : nullptr);
   std::vector<StageTime> stages;
   pipeline::StageClock clock(monitor, stages);
   pipeline::SizeField field{{}, pipeline::vertex_budget(input, options)};
@@ -152,6 +166,7 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   clock.run("certification", 0.97, 1, [&] { pipeline::certify_result(options, result); });
   result.size_ratio = pipeline::size_ratio(input, field, result);
   result.stages = std::move(stages);
+  result.history = std::move(history);
   if (monitor.cancelled()) result.status = Status::Cancelled;
   return result;
 }

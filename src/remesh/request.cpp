@@ -61,11 +61,27 @@ void check_options(const RemeshOptions& options) {
   if (!(options.penalty >= 0) || !std::isfinite(options.penalty))
     throw InvalidInput(
         fmt::format("the penalty must be non-negative and finite, not {}.", options.penalty));
+  if (!(options.normal_weight >= 1) || !std::isfinite(options.normal_weight))
+    throw InvalidInput(fmt::format(
+        "the weight of the normal must be at least 1 and finite, not {}.", options.normal_weight));
+  if (options.iterations < 0)
+    throw InvalidInput(
+        fmt::format("the number of iterations must be positive, not {}.", options.iterations));
+  if (options.iterations > 0 && options.method == Method::Default)
+    throw InvalidInput("iterations are counted by the paper's methods only.");
 }
 
 void check_input(const TriangleMesh& input) {
   if (mesh::needs_no_repair(input)) return;
   const CleanResult cleaned = clean(input);
+  if (!cleaned.kept.empty()) {
+    const Repair& first = cleaned.kept.front();
+    throw InvalidInput(
+        fmt::format("the surface is no manifold ({}: {}, the first at index {}); part "
+                    "it there first.",
+                    first.what, first.count, first.first),
+        first.first);
+  }
   if (cleaned.repairs.empty()) return;
   const Repair& first = cleaned.repairs.front();
   throw InvalidInput(
@@ -95,10 +111,14 @@ Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options) {
   return std::max(static_cast<Index>(n), Index{4});
 }
 
+int paper_iterations(const RemeshOptions& options) {
+  return options.iterations > 0 ? options.iterations : kPaperIterations;
+}
+
 CvtOptions cvt_options(const RemeshOptions& options, Index n) {
   CvtOptions result{.sites = n, .seed = options.seed};
   if (options.method == Method::Default) return result;
-  result.iterations = kPaperIterations;
+  result.iterations = paper_iterations(options) + 1;  // evaluations: the start is one
   result.tolerance = 0;
   result.coarse_levels = 0;
   return result;

@@ -21,8 +21,10 @@ void check_input(const TriangleMesh& input);
 /// are given and nothing else, since they say how many.
 Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options);
 
-/// The paper's methods start from samples at full size and take 40 iterations (30 to 50 there); the
-/// default method goes coarse to fine.
+/// Iterations of every stage of the paper's methods: as asked for, or 40 (30 to 50 there).
+int paper_iterations(const RemeshOptions& options);
+
+/// The paper's methods start from samples at full size; the default method goes coarse to fine.
 CvtOptions cvt_options(const RemeshOptions& options, Index n);
 
 RefinementOptions refinement_options(const RemeshOptions& options);

@@ -100,6 +100,31 @@ TEST_F(Remesh, ReportsJson) {
   EXPECT_EQ(json["after_vertices"], cli::measured(path("out.ply"))["vertices"]);
 }
 
+// Iterations 0, 1, 2, ... of every stage; watching changes nothing.
+TEST_F(Remesh, ReportsTheHistoryOfThePapersMethods) {
+  const std::string in = sample();
+  const auto run = [&](const char* out, bool history) {
+    std::vector<std::string> arguments{in,         "-o",     path(out),      "--vertices",
+                                       "500",      "--json", "--iterations", "4",
+                                       "--method", "cvt-nob"};
+    if (history) arguments.push_back("--history");
+    return nlohmann::json::parse(run_tool(arguments).out, nullptr, false);
+  };
+  const auto json = run("out.off", true);
+  ASSERT_FALSE(json.is_discarded());
+  std::vector<std::string> seen;
+  for (const auto& record : json["history"])
+    seen.push_back(record["stage"].get<std::string>() + ' ' +
+                   std::to_string(record["iteration"].get<int>()));
+  std::vector<std::string> expected;
+  for (const char* stage : {"cvt", "obtuse removal", "feature-sensitive"})
+    for (int k = 0; k <= 4; ++k) expected.push_back(std::string(stage) + ' ' + std::to_string(k));
+  EXPECT_EQ(seen, expected);
+  EXPECT_GT(json["history"][0]["obtuse"], json["history"][4]["obtuse"]);
+  EXPECT_FALSE(run("again.off", false).contains("history"));
+  EXPECT_EQ(cli::read_file(path("out.off")), cli::read_file(path("again.off")));
+}
+
 TEST_F(Remesh, ReportsRepairs) {
   // Two triangles of a tetrahedron as they are, one face the wrong way round.
   cli::write_file(path("in.obj"),

@@ -22,8 +22,9 @@ TEST(Help, OfACommandTellsItsOptions) {
     const Outcome outcome = run_tool(arguments);
     EXPECT_EQ(outcome.exit_code, 0);
     for (const char* option :
-         {"--output", "--vertices", "--edge-length", "--method", "--penalty", "--min-angle",
-          "--max-angle", "--on-surface", "--seed", "--threads", "--quiet", "--progress", "--json"})
+         {"--output", "--vertices", "--edge-length", "--method", "--penalty", "--normal-weight",
+          "--iterations", "--history", "--min-angle", "--max-angle", "--on-surface", "--seed",
+          "--threads", "--quiet", "--progress", "--json"})
       EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
   }
 }
@@ -70,7 +71,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"EdgeLengthNoNumber", {"in.obj", "-o", "o.obj", "--edge-length", "1cm"}, "1cm"},
         Mistake{"EdgeLengthZero", {"in.obj", "-o", "o.obj", "--edge-length", "0"}, "--edge-length"},
         Mistake{"EdgeLengthOnlySign", {"in.obj", "-o", "o.obj", "--edge-length", "%"}, "%"},
+        Mistake{"EdgeLengthEmpty", {"in.obj", "-o", "o.obj", "--edge-length", ""}, "--edge-length"},
         Mistake{"UnknownMethod", {"in.obj", "-o", "o.obj", "--method", "magic"}, "--method"},
+        Mistake{"NormalWeightBelowOne",
+                {"in.obj", "-o", "o.obj", "--normal-weight", "0.5"},
+                "--normal-weight"},
+        Mistake{"IterationsOfTheDefault",
+                {"in.obj", "-o", "o.obj", "--iterations", "10"},
+                "--iterations"},
+        Mistake{"HistoryWithoutJson", {"in.obj", "-o", "o.obj", "--history"}, "--json"},
         Mistake{"MinAngleTooLarge", {"in.obj", "-o", "o.obj", "--min-angle", "60"}, "--min-angle"},
         Mistake{"MaxAngleTooSmall", {"in.obj", "-o", "o.obj", "--max-angle", "60"}, "--max-angle"},
         Mistake{"MaxAngleObtuse", {"certify", "in.obj", "--max-angle", "91"}, "--max-angle"},

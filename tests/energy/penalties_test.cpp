@@ -55,6 +55,14 @@ Patch jittered_patch(int rows, double noise, std::uint64_t seed) {
   return p;
 }
 
+std::vector<double> ones(const Patch& p) { return std::vector<double>(p.sites.size(), 1); }
+
+std::vector<double> scales(const Patch& p) {  // as with a density: one for each site
+  std::vector<double> s;
+  for (std::size_t i = 0; i < p.sites.size(); ++i) s.push_back(0.5 + 0.01 * static_cast<double>(i));
+  return s;
+}
+
 // An energy that adds its gradient and diagonal and returns its value.
 using Energy = std::function<double(std::span<const Vec3>, std::span<Vec3>, std::span<double>)>;
 
@@ -85,7 +93,7 @@ TEST(ShortDualPenalty, GradientWithFrozenWeights) {
   for (const bool tangential : {false, true})
     expect_gradient_matches_differences(p.sites, [&](auto x, auto g, auto d) {
       return add_short_dual_penalty(x, p.edges, w, tangential ? p.normals : std::vector<Vec3>{},
-                                    0.7, g, d);
+                                    scales(p), g, d);
     });
 }
 
@@ -94,13 +102,14 @@ TEST(ShortDualPenalty, DiagonalIsTheExactSecondDerivative) {
   const std::vector<double> w = short_dual_weights(p.sites, p.edges, 0.1);
   std::vector<Vec3> g(p.sites.size());
   std::vector<double> d(p.sites.size(), 0);
-  const double at = add_short_dual_penalty(p.sites, p.edges, w, {}, 0.7, g, d);
+  const double at = add_short_dual_penalty(p.sites, p.edges, w, {}, scales(p), g, d);
   for (std::size_t i = 0; i < p.sites.size(); i += 7) {
     std::vector<Vec3> moved = p.sites;
     std::vector<Vec3> unused_g(p.sites.size());
     std::vector<double> unused_d(p.sites.size());
     moved[i].y += 1;  // R is quadratic: its expansion is exact for any step
-    const double there = add_short_dual_penalty(moved, p.edges, w, {}, 0.7, unused_g, unused_d);
+    const double there =
+        add_short_dual_penalty(moved, p.edges, w, {}, scales(p), unused_g, unused_d);
     EXPECT_NEAR(there - at - g[i].y, 0.5 * d[i], 1e-9 * d[i]);
   }
 }
@@ -111,7 +120,7 @@ TEST(ShortDualPenalty, VanishesInsideRegularTriangulationAndGrowsWithShortDuals)
     const std::vector<double> w = short_dual_weights(p.sites, p.edges, 0.1);
     std::vector<Vec3> g(p.sites.size());
     std::vector<double> d(p.sites.size(), 0);
-    return add_short_dual_penalty(p.sites, p.edges, w, {}, 1, g, d);
+    return add_short_dual_penalty(p.sites, p.edges, w, {}, ones(p), g, d);
   };
   const double regular = at_centre();  // from the patch's rim alone
   const Index centre = 3 * 7 + 3;
@@ -131,7 +140,7 @@ TEST(ShortDualPenalty, TangentialPartIgnoresCurvature) {
   const std::vector<double> w = short_dual_weights(p.sites, p.edges, 0.1);
   std::vector<Vec3> g(p.sites.size());
   std::vector<double> d(p.sites.size(), 0);
-  add_short_dual_penalty(p.sites, p.edges, w, up, 1, g, d);
+  add_short_dual_penalty(p.sites, p.edges, w, up, ones(p), g, d);
   for (const Vec3& v : g) EXPECT_EQ(v.z, 0);
 }
 

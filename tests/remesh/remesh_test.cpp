@@ -180,6 +180,9 @@ TEST(RemeshCall, SenselessRequestsAreRefused) {
   EXPECT_THROW(remesh(input, {.vertices = 200'000'000}), InvalidInput);
   EXPECT_THROW(remesh(input, {.vertices = 100, .method = Method::Cvt, .on_surface = true}),
                InvalidInput);
+  EXPECT_THROW(remesh(input, {.method = Method::CvtFs, .normal_weight = 0.5}), InvalidInput);
+  EXPECT_THROW(remesh(input, {.iterations = 10}), InvalidInput);
+  EXPECT_THROW(remesh(input, {.method = Method::Cvt, .iterations = -1}), InvalidInput);
   TriangleMesh dirty = input;
   dirty.vertices.push_back({9, 9, 9});
   EXPECT_THROW(remesh(dirty, {.vertices = 100}), InvalidInput);
