@@ -62,14 +62,16 @@ std::vector<double> read_lengths(const std::string& path) {
 
 RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMesh& input,
                                   const std::atomic<bool>& interrupted) {
-  ProgressBar bar(progress_style(command.progress, command.quiet));
+  const ProgressStyle style = progress_style(command.progress, command.quiet);
+  ProgressBar bar(style);
   Context context;
   context.threads = command.threads;
   context.cancel = &interrupted;
-  context.progress = [&bar](const Progress& progress) {
-    bar.show(progress);
-    return true;
-  };
+  if (style != ProgressStyle::None)
+    context.progress = [&bar](const Progress& progress) {
+      bar.show(progress);
+      return true;
+    };
   if (command.sizes.empty()) return remesh(input, command.options, context);
   RemeshOptions options = command.options;
   options.target_lengths = read_lengths(command.sizes);

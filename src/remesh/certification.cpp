@@ -5,7 +5,6 @@
 
 #include "nonobtuse/quality.h"
 #include "numeric/vec3.h"
-#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
@@ -26,11 +25,11 @@ constexpr double kNear = 4;
 
 }  // namespace
 
-void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
-                 const parallel::Workers& workers, RemeshResult& result) {
+void append_part(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
+                 const mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                 RemeshResult& result) {
   const mesh::Surface& surface = input.surface;
   const TriangleMesh working = mesh.to_mesh();
-  const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
   const std::vector<Vec3> normals = vertex_normals(working);
   const std::size_t first = result.mesh.vertices.size();
   const std::size_t count = working.vertices.size();

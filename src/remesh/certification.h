@@ -8,12 +8,15 @@
 #include "parallel/workers.h"
 #include "remesh/normalization.h"
 #include "remesh/parts.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
-/// Appends the mesh of one part, in input coordinates, with source_triangle and barycentric.
-void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
-                 const parallel::Workers& workers, RemeshResult& result);
+/// Appends the mesh of one part, in input coordinates, with source_triangle and barycentric; `bvh`
+/// is that of the input's surface.
+void append_part(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
+                 const mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                 RemeshResult& result);
 
 /// Fills certificates and angles of a finished mesh, and its status (Converged or AnglesRemain).
 /// The certificates speak of the coordinates as returned.

@@ -36,14 +36,13 @@ constexpr double kFarGrowth = 2;
 class Refinement {
  public:
   Refinement(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor)
+             const spatial::TriangleBvh& bvh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor)
       : mesh_(mesh),
         options_(options),
         workers_(workers),
         monitor_(monitor),
-        bvh_(surface.vertices, surface.triangles, workers),
-        fidelity_(surface, bvh_),
+        fidelity_(surface, bvh),
         descent_(mesh, fidelity_, options.on_surface, workers) {
     fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
@@ -84,7 +83,9 @@ class Refinement {
   }
 
  private:
-  bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
+  bool tick(double fraction) {
+    return monitor_.tick_counting(fraction, [&] { return refine::count_obtuse(mesh_); });
+  }
 
   void record() {
     if (!monitor_.recording()) return;
@@ -140,7 +141,6 @@ class Refinement {
   RefinementOptions options_;
   const parallel::Workers& workers_;
   parallel::Monitor& monitor_;
-  spatial::TriangleBvh bvh_;
   refine::Fidelity fidelity_;
   refine::GlobalDescent descent_;
   int done_ = 0;  // iterations of the descents so far
@@ -148,9 +148,9 @@ class Refinement {
 
 }  // namespace
 
-Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor) {
+Index refine(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+             mesh::EditableMesh& mesh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor) {
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
@@ -158,7 +158,7 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
     const refine::AngleTest test({options.min_angle, options.max_angle});
     return static_cast<Index>(refine::triangles_outside(mesh, test).size());
   }
-  const Index outside = Refinement(surface, mesh, options, workers, monitor).run();
+  const Index outside = Refinement(surface, mesh, bvh, options, workers, monitor).run();
   mesh.compact();
   return outside;
 }

@@ -6,6 +6,7 @@
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
@@ -18,10 +19,10 @@ struct RefinementOptions {
 /// Moves vertices, flips edges and, where nothing else helps, collapses one edge and splits
 /// another, until every angle is inside the bounds or nothing helps any more. Keeps the number of
 /// vertices and the topology; boundary vertices stay where they are. Working coordinates
-/// (area / #V = 1). Returns the number of triangles left outside. After a cancellation the mesh is
-/// valid, only not finished.
-Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor);
+/// (area / #V = 1); `bvh` is that of the surface. Returns the number of triangles left outside.
+/// After a cancellation the mesh is valid, only not finished.
+Index refine(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+             mesh::EditableMesh& mesh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor);
 
 }  // namespace nonobtuse::pipeline

@@ -6,13 +6,16 @@
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
 /// Brings every interior vertex to valence 5, 6 or 7 by edits that keep the number of vertices and
-/// the topology, as far as it can. Working coordinates (area / #V = 1). Returns the number of bad
-/// valences left. After a cancellation the mesh is valid, only not finished.
-Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-                       const parallel::Workers& workers, parallel::Monitor& monitor);
+/// the topology, as far as it can. Working coordinates (area / #V = 1); `bvh` is that of the
+/// surface. Returns the number of bad valences left. After a cancellation the mesh is valid, only
+/// not finished.
+Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+                       mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                       parallel::Monitor& monitor);
 
 }  // namespace nonobtuse::pipeline
