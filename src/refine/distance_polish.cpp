@@ -143,7 +143,8 @@ void polish_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOp
       p.factor(fidelity) *= kGrowth;
       places.push_back(p.triangle);
     }
-    const std::vector<Index> active = dilated(mesh, places, 2);
+    std::vector<Index> active = dilated(mesh, places, 2);
+    fidelity.knots.add_copies(mesh, active);
     const std::vector<Index> touched = triangles_around(mesh, active);
     std::vector<Index> changed = touched;
     for (int i = 0; i < 2; ++i) {
