@@ -96,6 +96,7 @@ class Result:
         "barycentric",
         "certificate",
         "faces",
+        "feature_edges",
         "goal",
         "report",
         "source",
@@ -112,6 +113,8 @@ class Result:
     """(n,): the face of ``source`` nearest to each vertex."""
     barycentric: NDArray[np.float64]
     """(n, 3): coordinates of the nearest point in that face."""
+    feature_edges: NDArray[np.int32]
+    """(k, 2): edges of the result that make up the creases and boundaries of the input."""
     source: Mesh
     """The mesh that ``source_triangle`` speaks of: the arrays given, or the repaired input."""
     status: Status

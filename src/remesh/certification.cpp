@@ -23,13 +23,9 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
 // Squared distance, in edge lengths, within which the sheet told by the normal is preferred.
 constexpr double kNear = 4;
 
-}  // namespace
-
-void append_part(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
-                 const mesh::EditableMesh& mesh, const parallel::Workers& workers,
-                 RemeshResult& result) {
+void append(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
+            const TriangleMesh& working, const parallel::Workers& workers, RemeshResult& result) {
   const mesh::Surface& surface = input.surface;
-  const TriangleMesh working = mesh.to_mesh();
   const std::vector<Vec3> normals = vertex_normals(working);
   const std::size_t first = result.mesh.vertices.size();
   const std::size_t count = working.vertices.size();
@@ -48,6 +44,25 @@ void append_part(const Part& part, const NormalizedInput& input, const spatial::
   const auto shift = static_cast<Index>(first);
   for (const Triangle& t : working.triangles)
     result.mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+}  // namespace
+
+void append_part(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
+                 const mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                 RemeshResult& result) {
+  append(part, input, bvh, mesh.to_mesh(), workers, result);
+}
+
+void append_part(const Part& part, const NormalizedInput& input, const GluedMesh& glued,
+                 const parallel::Workers& workers, RemeshResult& result) {
+  const auto first = static_cast<Index>(result.mesh.vertices.size());
+  const spatial::TriangleBvh bvh(input.surface.vertices, input.surface.triangles, workers);
+  append(part, input, bvh, glued.mesh, workers, result);
+  for (std::size_t v = 0; v < glued.source.size(); ++v)
+    if (glued.source[v] >= 0) result.mesh.vertices[first + v] = part.mesh.vertices[glued.source[v]];
+  for (const std::array<Index, 2>& e : glued.feature_edges)
+    result.feature_edges.push_back({e[0] + first, e[1] + first});
 }
 
 void certify_result(const RemeshOptions& options, RemeshResult& result) {

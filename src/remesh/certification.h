@@ -6,6 +6,7 @@
 #include "nonobtuse/options.h"
 #include "nonobtuse/result.h"
 #include "parallel/workers.h"
+#include "remesh/featured_part.h"
 #include "remesh/normalization.h"
 #include "remesh/parts.h"
 #include "spatial/triangle_bvh.h"
@@ -17,6 +18,10 @@ namespace nonobtuse::pipeline {
 void append_part(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
                  const mesh::EditableMesh& mesh, const parallel::Workers& workers,
                  RemeshResult& result);
+
+/// The same for a part with features. Vertices with a source get its very coordinates.
+void append_part(const Part& part, const NormalizedInput& input, const GluedMesh& glued,
+                 const parallel::Workers& workers, RemeshResult& result);
 
 /// Fills certificates and angles of a finished mesh, and its status (Converged or AnglesRemain).
 /// The certificates speak of the coordinates as returned.
