@@ -298,15 +298,12 @@ bool mesh::needs_no_repair(const TriangleMesh& mesh) {
       return false;
   const auto count = static_cast<Index>(mesh.vertices.size());
   const auto adjacent = triangle_adjacency(mesh.triangles, count);
-  for (Index t = 0; t < static_cast<Index>(adjacent.size()); ++t) {
-    const auto [a, b, c] = adjacent[t];
+  for (const auto& [a, b, c] : adjacent) {
     // Two faces on the same three vertices are neighbours across more than one edge.
     if ((a >= 0 && (a == b || a == c)) || (b >= 0 && b == c)) return false;
-    // Of three faces at an edge one has a neighbour that has another one.
-    for (const Index u : {a, b, c})
-      if (u >= 0 && adjacent[u][0] != t && adjacent[u][1] != t && adjacent[u][2] != t) return false;
   }
-  return one_fan_each(mesh, adjacent);  // so that faces that disagree at an edge make two fans
+  // Faces that disagree at an edge, or are more than two there, make several fans.
+  return one_fan_each(mesh, adjacent);
 }
 
 CleanResult clean(const TriangleMesh& mesh) {

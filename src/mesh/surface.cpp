@@ -29,29 +29,37 @@ std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>
   const auto join = [&](const std::pair<Index, int>& one, const std::pair<Index, int>& other) {
     const auto [t, k] = one;
     const auto [u, l] = other;
-    const Triangle& a = triangles[t];
-    const Triangle& b = triangles[u];
-    if (a[next(k)] != b[previous(l)] || a[previous(k)] != b[next(l)]) return;
+    if (triangles[t][next(k)] != triangles[u][previous(l)]) return;  // the same way round
     adjacent[t][k] = u;
     adjacent[u][l] = t;
   };
+  // Half-edges are joined where exactly two of a bucket have the same upper vertex.
   constexpr std::size_t kFew = 16;
   for (Index v = 0; v < count; ++v) {
-    const std::size_t begin = start[v], end = start[v + 1];
-    if (end - begin <= kFew) {
-      for (std::size_t i = begin; i < end; ++i)
-        for (std::size_t j = i + 1; j < end; ++j) join(half_edges[i], half_edges[j]);
+    const std::size_t begin = start[v];
+    const std::size_t size = start[v + 1] - begin;
+    if (size <= kFew) {
+      std::array<Index, kFew> to{};
+      for (std::size_t i = 0; i < size; ++i) to[i] = upper(half_edges[begin + i]);
+      for (std::size_t i = 0; i < size; ++i) {
+        std::size_t same = 0, other = i;
+        for (std::size_t j = 0; j < size; ++j)
+          if (to[j] == to[i] && j != i) ++same, other = j;
+        if (same == 1 && other > i) join(half_edges[begin + i], half_edges[begin + other]);
+      }
       continue;
     }
     // Half-edges of one edge side by side, so that a vertex of any valence costs n log n.
     std::sort(half_edges.begin() + static_cast<std::ptrdiff_t>(begin),
-              half_edges.begin() + static_cast<std::ptrdiff_t>(end),
+              half_edges.begin() + static_cast<std::ptrdiff_t>(begin + size),
               [&](const auto& a, const auto& b) {
                 return std::pair(upper(a), a) < std::pair(upper(b), b);
               });
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = i + 1; j < end && upper(half_edges[j]) == upper(half_edges[i]); ++j)
-        join(half_edges[i], half_edges[j]);
+    std::size_t end = begin;
+    for (std::size_t i = begin; i < begin + size; i = end) {
+      while (end < begin + size && upper(half_edges[end]) == upper(half_edges[i])) ++end;
+      if (end - i == 2) join(half_edges[i], half_edges[i + 1]);
+    }
   }
   return adjacent;
 }
