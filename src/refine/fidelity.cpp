@@ -180,7 +180,8 @@ void Fidelity::walk_samples(const mesh::EditableMesh& mesh, const parallel::Work
   sort_samples(found, mesh.triangle_capacity());
 }
 
-void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles) {
+std::vector<Index> Fidelity::rewalk(const mesh::EditableMesh& mesh,
+                                    std::span<const Index> triangles) {
   std::vector<std::pair<Index, Index>> moves;  // sample, triangle
   for (Index t : triangles) {
     Index* link = &first[t];
@@ -197,10 +198,13 @@ void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> tri
     }
     update_triangle(mesh, t);
   }
+  std::vector<Index> receivers;
   for (const auto& [s, to] : moves) {
     samples[s].next = first[to];
     first[to] = s;
+    receivers.push_back(to);
   }
+  return receivers;
 }
 
 void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth) {

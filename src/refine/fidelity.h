@@ -97,7 +97,8 @@ class Fidelity {
   /// samples by triangle.
   void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
-  void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Returns the triangles that got samples of others.
+  std::vector<Index> rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Points of T that stick out: multiplies by `growth` the weights of vertices and midpoints
   /// farther than `far` from their tangent planes.
   void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);

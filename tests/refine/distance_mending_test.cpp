@@ -91,7 +91,9 @@ TEST(RidgePoints, SharpEdgesAndVerticesOfTheSurfaceBecomeSamples) {
   EXPECT_GE(on_edges, 12u);
   // A second time none is added, and their weights grow.
   const double weight = s.fidelity.samples[before].weight;
-  EXPECT_EQ(s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers), far);
+  EXPECT_EQ(s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers,
+                                            FarRidges::VerticesAndEdges),
+            far);
   EXPECT_EQ(s.fidelity.samples.size(), before + static_cast<std::size_t>(far));
   EXPECT_DOUBLE_EQ(s.fidelity.samples[before].weight, 2 * weight);
 }
