@@ -32,6 +32,7 @@ constexpr double kMeanQualitySized = 0.939;  // gradation costs shape
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
+constexpr double kLeash = 0.05;  // where the size is 1
 
 class Refinement {
  public:
@@ -63,6 +64,8 @@ class Refinement {
     // First wide open, so that shape and fidelity find their balance; then two degrees inside.
     descend(14, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
     const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
+    // Beside creases the connectivity is less free, and vertices would rather leave the surface.
+    if (!fidelity_.knots.empty()) fidelity_.leash = kLeash;
     for (int round = 0; round < 3; ++round) {
       if (monitor_.cancelled()) return outside_goal({lo, hi});
       const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
