@@ -33,6 +33,7 @@ constexpr double kFarFactor = 5;  // vertices of M farther than this many rms di
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
 constexpr double kLeash = 0.05;  // where the size is 1
+constexpr double kMendingLeash = 0.2;
 
 class Refinement {
  public:
@@ -80,11 +81,10 @@ class Refinement {
     local.goal = goal;
     local.shape = energy::hinged(100, lo + 1, hi - 1);
     local.on_surface = options_.on_surface;
-    fidelity_.valences.measure(mesh_);
-    refine::mend_valences(mesh_, fidelity_, local, false, workers_, [&] { return tick(0.75); });
-    const Index outside =
-        refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,
-                             [&](double f) { return tick(0.75 + 0.15 * f); });
+    Index outside = mend_and_sweep(local);
+    // Beside creases a second attempt finds a mesh in better order.
+    for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
+      outside = mend_and_sweep(local);
     refine::polish_distance(mesh_, fidelity_, local, workers_,
                             [&](double f) { return tick(0.9 + 0.05 * f); });
     refine::separate_sheets(mesh_, fidelity_, local, workers_,
@@ -93,6 +93,17 @@ class Refinement {
   }
 
  private:
+  Index mend_and_sweep(const refine::TrialOptions& local) {
+    fidelity_.valences.measure(mesh_);
+    // New connectivity needs room to settle.
+    const double leash = fidelity_.leash;
+    fidelity_.leash = kMendingLeash / kLeash * leash;
+    refine::mend_valences(mesh_, fidelity_, local, false, workers_, [&] { return tick(0.75); });
+    fidelity_.leash = leash;
+    return refine::sweep_angles(mesh_, fidelity_, local.goal, options_.on_surface, workers_,
+                                [&](double f) { return tick(0.75 + 0.15 * f); });
+  }
+
   bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
 
   void record() {
