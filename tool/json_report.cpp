@@ -152,6 +152,14 @@ Json to_json(const SizeRatio& ratio) {
           {"percentile_95", ratio.percentile_95}};
 }
 
+Json to_json(const std::vector<NarrowCorner>& corners) {
+  Json list = Json::array();
+  for (const NarrowCorner& c : corners)
+    list.push_back(
+        {{"vertex", c.vertex}, {"input_angle", c.input_angle}, {"reached_angle", c.reached_angle}});
+  return list;
+}
+
 Json to_json(const RemeshOptions& options) {
   return {{"vertices", options.vertices},
           {"edge_length", options.edge_length},

@@ -7,6 +7,7 @@
 #include "features/vertex_balance.h"
 #include "mesh/editable_mesh.h"
 #include "nonobtuse/options.h"
+#include "nonobtuse/result.h"
 #include "parallel/workers.h"
 #include "remesh/normalization.h"
 #include "remesh/parts.h"
@@ -17,13 +18,13 @@ namespace nonobtuse::pipeline {
 /// What is settled before anything is sampled.
 struct FeaturePlan {
   NormalizedInput input;
-  Index originals = 0;            ///< vertices of `surface` that are the input's, the first ones
-  mesh::Surface surface;          ///< the input, with its sizes; where features are near each other
-                                  ///< with short edges, so that sizes can follow them
-  features::EdgeFlags flags;      ///< of the surface's facets, without stubs too short to mesh
-  features::FeatureGraph graph;   ///< on the surface
+  Index originals = 0;           ///< vertices of `surface` that are the input's, the first ones
+  mesh::Surface surface;         ///< the input, with its sizes; where features are near each other
+                                 ///< with short edges, so that sizes can follow them
+  features::EdgeFlags flags;     ///< of the surface's facets, without stubs too short to mesh
+  features::FeatureGraph graph;  ///< on the surface
   features::VertexBalance balance;
-  std::vector<char> frozen;       ///< #curves: every vertex of it stays where it is
+  std::vector<char> frozen;  ///< #curves: every vertex of it stays where it is
 };
 
 /// Curves, corners and the share of each curve and patch of `vertices`. Throws TooFewVertices.
@@ -34,6 +35,7 @@ struct GluedMesh {
   TriangleMesh mesh;
   std::vector<Index> source;  ///< #V: the part's vertex of equal position; -1 where there is none
   std::vector<std::array<Index, 2>> feature_edges;  ///< of the mesh
+  std::vector<NarrowCorner> narrow_corners;  ///< of the mesh; what is reached is not known yet
 };
 
 /// Throws TooFewVertices where the topology needs more.

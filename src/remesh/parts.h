@@ -16,7 +16,7 @@ struct Part {
   TriangleMesh mesh;
   std::vector<Index> facet;  ///< #F of the part: its triangle in the whole mesh
   double area = 0;
-  std::vector<double> length;  ///< #V: target edge lengths, input units; empty if uniform
+  std::vector<double> length;    ///< #V: target edge lengths, input units; empty if uniform
   features::EdgeFlags features;  ///< #F: edges that are features; empty if there are none
   Index least = 4;  ///< vertices to give it at least: first what any surface of its topology needs
                     ///< (Heawood; 3 for a disc), then what was found to do
