@@ -10,7 +10,7 @@ namespace {
 using mesh::next;
 using mesh::previous;
 
-constexpr double kFlatStiffness = 100;  // of vertices against leaving a flat patch
+constexpr double kFlatStiffness = 3000;  // of vertices against leaving a flat patch
 constexpr std::size_t kChunk = 512;
 constexpr int kLongestWalk = 64;  // steps; no more than a cap on degenerate input
 

@@ -11,7 +11,7 @@
 namespace nonobtuse::refine {
 namespace {
 
-constexpr double kLeastFlatWidth = 1;  // where an edge is about 1 long
+constexpr double kLeastFlatWidth = 3;  // where an edge is about 1 long
 constexpr double kFlatness = 1e-5;     // relative to distance, where an edge is about 1 long
 
 // Labels 0, 1, ... of the components of `count` triangles, by lowest index; -1 where not alive.

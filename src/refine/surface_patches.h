@@ -22,7 +22,7 @@ std::vector<Index> mesh_patches(const mesh::EditableMesh& mesh, const mesh::Surf
                                 const std::vector<Index>& of_facet,
                                 const parallel::Workers& workers);
 
-/// #F: 1 for facets of flat patches, and of flat places wider than an edge. There a way out of the plane, which mends
+/// #F: 1 for facets of flat patches, and of flat places several edges wide. There a way out of the plane, which mends
 /// angles where it is narrow, must cost more than elsewhere: nothing of the shape would be left.
 /// Working coordinates.
 std::vector<char> flat_facets(const mesh::Surface& surface);
