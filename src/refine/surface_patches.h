@@ -39,6 +39,9 @@ class PatchLabels {
     return empty() || (*of_facet)[facet] == of_vertex[vertex];
   }
   [[nodiscard]] bool flat_at(Index facet) const { return !empty() && (*flat)[facet] != 0; }
+  [[nodiscard]] bool same_patch(Index v, Index w) const {
+    return empty() || of_vertex[v] == of_vertex[w];
+  }
   /// A new vertex beside another.
   void add_beside(Index v) {
     if (!empty()) of_vertex.push_back(of_vertex[v]);
