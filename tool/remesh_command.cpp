@@ -43,6 +43,7 @@ TriangleMesh read_clean(const std::string& path, std::vector<Repair>& repairs) {
   repairs = std::move(read.repairs);
   CleanResult cleaned = clean(read.mesh);
   repairs.insert(repairs.end(), cleaned.repairs.begin(), cleaned.repairs.end());
+  repairs.insert(repairs.end(), cleaned.kept.begin(), cleaned.kept.end());
   return std::move(cleaned.mesh);
 }
 

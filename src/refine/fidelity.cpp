@@ -10,7 +10,6 @@ namespace {
 using mesh::next;
 using mesh::previous;
 
-constexpr double kFlatStiffness = 3000;  // of vertices against leaving a flat patch
 constexpr std::size_t kChunk = 512;
 constexpr int kLongestWalk = 64;  // steps; no more than a cap on degenerate input
 
@@ -131,7 +130,6 @@ void Fidelity::attach_curves(const mesh::EditableMesh& mesh, const mesh::CurveNe
   if (!curves || mesh.knot.empty()) return;
   knots = Knots(*curves, mesh);
   patches.of_facet = std::make_shared<const std::vector<Index>>(surface_patches(surface()));
-  patches.flat = std::make_shared<const std::vector<char>>(flat_facets(surface()));
   patches.of_vertex = mesh_patches(mesh, surface(), surface_bvh(), *patches.of_facet, workers);
 }
 
@@ -359,7 +357,6 @@ void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool searc
   plane.move_to(search || plane.facet < 0
                     ? search_foot(mesh.positions[v], normal, 2 * size.at(v), v)
                     : walk_foot(mesh.positions[v], plane.facet));
-  if (patches.flat_at(plane.facet)) vertex_weights[v] *= kFlatStiffness;
 }
 
 void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool search) {

@@ -217,7 +217,6 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
       fidelity.patches.of_vertex.push_back(whole_fidelity.patches.of_vertex[v]);
   }
   fidelity.patches.of_facet = whole_fidelity.patches.of_facet;
-  fidelity.patches.flat = whole_fidelity.patches.flat;
   fidelity.knots = Knots(knots, whole, vertex, inner_, knot_);
   if (fidelity.knots.empty()) return;
   mesh.knot.assign(vertex.size(), -1);

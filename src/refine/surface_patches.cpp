@@ -1,18 +1,12 @@
 #include "refine/surface_patches.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include "refine/fidelity.h"
 
 namespace nonobtuse::refine {
 namespace {
-
-constexpr double kLeastFlatWidth = 3;  // where an edge is about 1 long
-constexpr double kFlatness = 1e-5;     // relative to distance, where an edge is about 1 long
 
 // Labels 0, 1, ... of the components of `count` triangles, by lowest index; -1 where not alive.
 template <class Alive, class Adjacent>
@@ -44,52 +38,6 @@ std::vector<Index> surface_patches(const mesh::Surface& surface) {
   return components(
       static_cast<Index>(surface.triangles.size()), [](Index) { return true; },
       [&](Index f, int k) { return surface.adjacent[f][k]; });
-}
-
-std::vector<char> flat_facets(const mesh::Surface& surface) {
-  const auto count = static_cast<Index>(surface.triangles.size());
-  std::vector<Index> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index f, Index g) { return surface.areas[f] > surface.areas[g]; });
-  std::vector<char> flat(count, 0);
-  std::vector<char> seen(count, 0);
-  std::vector<Index> region;
-  for (const Index base : order) {  // largest facets first: normals of needles mean nothing
-    if (seen[base] != 0) continue;
-    const Vec3& normal = surface.normals[base];
-    const Vec3& origin = surface.vertices[surface.triangles[base][0]];
-    const auto in_plane = [&](Index f) {
-      for (const Index v : surface.triangles[f]) {
-        const Vec3 d = surface.vertices[v] - origin;
-        if (std::abs(dot(normal, d)) > kFlatness * (1 + length(d))) return false;
-      }
-      return dot(surface.normals[f], normal) > 0;
-    };
-    double area = 0;
-    double perimeter = 0;
-    bool whole_patch = true;
-    region.assign(1, base);
-    seen[base] = 1;
-    for (std::size_t i = 0; i < region.size(); ++i) {
-      const Index f = region[i];
-      area += surface.areas[f];
-      for (int k = 0; k < 3; ++k) {
-        const Index g = surface.adjacent[f][k];
-        if (g >= 0 && seen[g] == 0 && in_plane(g)) {
-          seen[g] = 1;
-          region.push_back(g);
-        } else if (g < 0 || !in_plane(g)) {
-          const Triangle& t = surface.triangles[f];
-          perimeter +=
-              distance(surface.vertices[t[mesh::next(k)]], surface.vertices[t[mesh::previous(k)]]);
-        }
-      }
-    }
-    if (!whole_patch && area < kLeastFlatWidth / 2 * perimeter) continue;
-    for (const Index f : region) flat[f] = 1;
-  }
-  return flat;
 }
 
 std::vector<Index> mesh_patches(const mesh::EditableMesh& mesh, const mesh::Surface& surface,

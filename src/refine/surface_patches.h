@@ -22,23 +22,16 @@ std::vector<Index> mesh_patches(const mesh::EditableMesh& mesh, const mesh::Surf
                                 const std::vector<Index>& of_facet,
                                 const parallel::Workers& workers);
 
-/// #F: 1 for facets of flat patches, and of flat places several edges wide. There a way out of the plane, which mends
-/// angles where it is narrow, must cost more than elsewhere: nothing of the shape would be left.
-/// Working coordinates.
-std::vector<char> flat_facets(const mesh::Surface& surface);
-
 /// Which facets and vertices belong together. Empty: all do.
 class PatchLabels {
  public:
   std::shared_ptr<const std::vector<Index>> of_facet;  ///< #F of the surface
-  std::shared_ptr<const std::vector<char>> flat;       ///< #F: see flat_facets
   std::vector<Index> of_vertex;                        ///< #V of the mesh
 
   [[nodiscard]] bool empty() const { return of_vertex.empty(); }
   [[nodiscard]] bool agree(Index facet, Index vertex) const {
     return empty() || (*of_facet)[facet] == of_vertex[vertex];
   }
-  [[nodiscard]] bool flat_at(Index facet) const { return !empty() && (*flat)[facet] != 0; }
   [[nodiscard]] bool same_patch(Index v, Index w) const {
     return empty() || of_vertex[v] == of_vertex[w];
   }

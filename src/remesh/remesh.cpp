@@ -84,7 +84,7 @@ bool remesh_featured(const pipeline::Part& part, Index n, const RemeshOptions& o
                      RemeshResult& result) {
   if (part.features.empty()) return false;
   const pipeline::FeaturePlan plan = pipeline::plan_features(part, n, options);
-  if (plan.graph.curves.empty()) return false;
+  if (plan.graph.curves.empty() && part.points.empty()) return false;
   pipeline::append_part(part, plan.input,
                         pipeline::remesh_features(plan, n, options, workers, clock), workers,
                         result);
@@ -152,7 +152,7 @@ void require_vertices(const std::vector<pipeline::Part>& parts, Index n) {
 RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
                     const Context& context) {
   pipeline::check_options(options);
-  pipeline::check_input(input);
+  pipeline::check_input(input, options.method);
   const parallel::Workers workers(context.threads);
   std::vector<IterationRecord> history;
   parallel::Monitor monitor(context, options.history ? &history : nullptr);

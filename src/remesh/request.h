@@ -13,8 +13,8 @@ namespace nonobtuse::pipeline {
 void check_options(const RemeshOptions& options);
 
 /// Throws InvalidInput for whatever `clean` would refuse or repair: remeshing never repairs
-/// silently.
-void check_input(const TriangleMesh& input);
+/// silently. The paper's methods need a manifold.
+void check_input(const TriangleMesh& input, Method method);
 
 /// The number of output vertices: given, or from an edge length h as area / (sqrt(3)/2 h^2), the
 /// density of a regular triangulation, or the input's own. At least 4; or 0 where target lengths
