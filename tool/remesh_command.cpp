@@ -106,7 +106,10 @@ RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMe
 
 int exit_code_of(const Outcome& outcome) {
   if (outcome.result.status == Status::Cancelled) return kCancelled;
-  return outcome.goal.certified ? kDone : kAnglesRemain;
+  return certified_but_for_narrow_corners(outcome.written, outcome.goal,
+                                          outcome.result.narrow_corners)
+             ? kDone
+             : kAnglesRemain;
 }
 
 const char* status_name(int code) {
@@ -159,6 +162,21 @@ Json full_report(const RemeshCommand& command, const Outcome& outcome, int code)
   return json;
 }
 
+// Corners of the input that no mesh can keep and yet have good angles.
+void print_narrow_corners(const Outcome& outcome) {
+  const std::vector<NarrowCorner>& corners = outcome.result.narrow_corners;
+  if (corners.empty()) return;
+  fmt::print("{} of the input have a face angle below 30 degrees, which any mesh keeps:\n",
+             corners.size() == 1 ? "1 corner" : fmt::format("{} corners", corners.size()));
+  for (std::size_t i = 0; i < corners.size() && i < kTrianglesNamed; ++i) {
+    const Vec3& p = outcome.written.vertices[corners[i].vertex];
+    fmt::print("  vertex {} at ({:.6g}, {:.6g}, {:.6g}): {:.4f} in the input, {:.4f} reached\n",
+               corners[i].vertex, p.x, p.y, p.z, corners[i].input_angle, corners[i].reached_angle);
+  }
+  if (!outcome.goal.certified && exit_code_of(outcome) == kDone)
+    fmt::print("every triangle outside the bounds touches one of them\n");
+}
+
 void print_table(const RemeshCommand& command, const Outcome& outcome) {
   const auto count = [](const TriangleMesh& m) { return static_cast<Index>(m.vertices.size()); };
   const Column before{"before", count(outcome.input), measure_angles(outcome.input), {}};
@@ -175,6 +193,7 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
   const CertificateBounds& goal = outcome.goal.bounds;
   if (!outcome.goal.certified && (goal.min_angle != 30 || goal.max_angle != 90))
     fmt::print("{}", certificate_text(path, outcome.written, outcome.promise, 0));
+  print_narrow_corners(outcome);
   if (outcome.result.status == Status::Cancelled) fmt::print("cancelled: the best mesh so far\n");
   if (!command.no_distance && !outcome.distance && outcome.result.status != Status::Cancelled)
     fmt::print(
