@@ -32,18 +32,24 @@ Gap gap_between(const mesh::EditableMesh& mesh, const Knots& knots, Index a, Ind
   return gap;
 }
 
-// The edge of side copy `c` towards the knot of `kept`.
-mesh::Edge edge_towards(const mesh::EditableMesh& mesh, Index c, Index kept_knot) {
-  mesh::Edge found;
+// The boundary edges at copy `c` towards copies of a knot: one, but two at the end of a dangling
+// crease, which has one copy for both sides.
+std::vector<mesh::Edge> edges_towards(const mesh::EditableMesh& mesh, Index c, Index knot) {
+  std::vector<mesh::Edge> found;
   for_ring(mesh, c, [&](Index t, int) {
     for (int k = 0; k < 3; ++k) {
       const mesh::Edge e{t, k};
       if (mesh.adjacent(t, k) >= 0) continue;
       const Index u = mesh.tail(e) == c ? mesh.head(e) : mesh.head(e) == c ? mesh.tail(e) : -1;
-      if (u >= 0 && mesh.knot[u] == kept_knot) found = e;
+      if (u >= 0 && mesh.knot[u] == knot) found.push_back(e);
     }
   });
   return found;
+}
+
+mesh::Edge edge_towards(const mesh::EditableMesh& mesh, Index c, Index knot) {
+  const std::vector<mesh::Edge> edges = edges_towards(mesh, c, knot);
+  return edges.size() == 1 ? edges.front() : mesh::Edge{};
 }
 
 bool keeps_sides(const mesh::EditableMesh& mesh, Index removed, Index kept) {
@@ -90,10 +96,8 @@ Index split_side(mesh::EditableMesh& mesh, Knots& knots, const mesh::Edge& side,
 std::vector<mesh::Edge> curve_sides(const mesh::EditableMesh& mesh, const Knots& knots, Index a,
                                     Index b) {
   std::vector<mesh::Edge> sides;
-  for (const Index c : knots.all[mesh.knot[a]].copies) {
-    const mesh::Edge e = edge_towards(mesh, c, mesh.knot[b]);
-    if (e.valid()) sides.push_back(e);
-  }
+  for (const Index c : knots.all[mesh.knot[a]].copies)
+    for (const mesh::Edge& e : edges_towards(mesh, c, mesh.knot[b])) sides.push_back(e);
   return sides;
 }
 
@@ -140,6 +144,8 @@ bool can_collapse_curve(const mesh::EditableMesh& mesh, const Knots& knots, Inde
   if (knots.curve(k).closed &&
       (own.before == own.after || knots.all[own.before].before == own.after))
     return false;
+  // Towards the end of a dangling crease both sides would collapse onto one vertex.
+  if (knots.all[l].copies.size() < own.copies.size()) return false;
   for (const Index c : own.copies) {
     const mesh::Edge e = edge_towards(mesh, c, l);
     if (!e.valid()) return false;
