@@ -154,9 +154,10 @@ Json to_json(const SizeRatio& ratio) {
 
 Json to_json(const std::vector<NarrowCorner>& corners) {
   Json list = Json::array();
-  for (const NarrowCorner& c : corners)
-    list.push_back(
-        {{"vertex", c.vertex}, {"input_angle", c.input_angle}, {"reached_angle", c.reached_angle}});
+  for (const NarrowCorner& corner : corners)
+    list.push_back({{"vertex", corner.vertex},
+                    {"input_angle", corner.input_angle},
+                    {"reached_angle", corner.reached_angle}});
   return list;
 }
 
