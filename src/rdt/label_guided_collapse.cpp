@@ -158,9 +158,7 @@ class GuidedCollapse {
     }
   }
 
-  [[nodiscard]] bool is_knot(Index v) const {
-    return claimed_[v] >= 0 && knots_[claimed_[v]] == v;
-  }
+  [[nodiscard]] bool is_knot(Index v) const { return claimed_[v] >= 0 && knots_[claimed_[v]] == v; }
 
   void flood() {
     struct Front {
@@ -255,22 +253,27 @@ class GuidedCollapse {
     }
   }
 
-  // Splits the interior edges from v to those other than their triangle's apex that a is joined to.
+  // Splits the interior edges from v to those other than their triangle's apex that a is joined to,
+  // and the one that joins the ends of v's own chain.
   void split_chords(Index v, Index a) {
     const Index apex = mesh_.opposite_vertex(mesh_.find_edge(v, a));
     std::vector<Index> ring;
     mesh_.neighbors(v, ring);
-    for (const Index w : ring) {
-      if (w == a || w == apex || !mesh_.find_edge(a, w).valid()) continue;
-      const Edge e = mesh_.find_edge(v, w);
-      const Edge o = mesh_.twin(e);
-      if (!o.valid()) continue;
-      mesh_.split_edge(e, 0.5 * (mesh_.positions[v] + mesh_.positions[w]));
-      label_.push_back(label_[v]);
-      key_.push_back(key_[v]);
-      facet_.push_back(facet_[e.triangle]);
-      facet_.push_back(facet_[o.triangle]);
-    }
+    split_interior(ring.front(), ring.back());
+    for (const Index w : ring)
+      if (w != a && w != apex && mesh_.find_edge(a, w).valid()) split_interior(v, w);
+  }
+
+  // Splits the edge from v to w in its middle, if it is one and not at the boundary.
+  void split_interior(Index v, Index w) {
+    const Edge e = mesh_.find_edge(v, w);
+    if (!e.valid() || !mesh_.twin(e).valid()) return;
+    const Edge o = mesh_.twin(e);
+    mesh_.split_edge(e, 0.5 * (mesh_.positions[v] + mesh_.positions[w]));
+    label_.push_back(label_[v]);
+    key_.push_back(key_[v]);
+    facet_.push_back(facet_[e.triangle]);
+    facet_.push_back(facet_[o.triangle]);
   }
 
   CollapsedMesh finish_prescribed() {

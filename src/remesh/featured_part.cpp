@@ -216,6 +216,7 @@ class FeaturedPart {
     }
     mesh_ = mesh::EditableMesh(std::move(positions), std::move(triangles));
     mesh_.knot = std::move(knot);
+
   }
 
   // Where the topology of one patch needed more vertices, others give theirs.
