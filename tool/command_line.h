@@ -20,6 +20,8 @@ struct RemeshCommand {
   std::string input;
   OutputOptions output;
   RemeshOptions options;
+  std::string report;         ///< .html or .json; empty: none
+  std::string command_line;   ///< as given, to do it again
   std::string sizes;          ///< file of target edge lengths, with Sizing::Given
   std::string feature_edges;  ///< file of pairs of vertices, with Features::Given
   int threads = 0;
