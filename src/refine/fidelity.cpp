@@ -1,5 +1,6 @@
 #include "refine/fidelity.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "numeric/random.h"
@@ -11,6 +12,7 @@ using mesh::next;
 using mesh::previous;
 
 constexpr std::size_t kChunk = 512;
+constexpr double kLeash = 1000;
 constexpr int kLongestWalk = 64;  // steps; no more than a cap on degenerate input
 
 // Walks from triangle `at` to the triangle locally nearest to y. Only where the closest point lies
@@ -431,8 +433,36 @@ double Fidelity::vertex(Index v, const Vec3& p, Vec3* gradient) const {
   const double weight = weights.to_surface * vertex_weights[v];
   const double height = dot(p - plane.point, plane.normal) - plane.offset;
   if (gradient) *gradient += 2 * weight * height * plane.normal;
-  return weight * height * height;
+  double energy = weight * height * height;
+  const double excess = std::abs(height) - leash * size.at(v);
+  if (excess > 0) {
+    const double stiffness = leash_stiffness(v);
+    energy += stiffness * excess * excess;
+    if (gradient) *gradient += (height < 0 ? -2 : 2) * stiffness * excess * plane.normal;
+  }
+  return energy;
 }
+
+Vec3 Fidelity::on_leash(Index v, const Vec3& from, const Vec3& to) const {
+  const TangentPlane& plane = vertex_planes[v];
+  const auto height = [&](const Vec3& p) {
+    return dot(p - plane.point, plane.normal) - plane.offset;
+  };
+  const double most = std::max(2 * leash * size.at(v), std::abs(height(from)));
+  const double h = height(to);
+  if (!(std::abs(h) > most)) return to;
+  return to - (h - std::clamp(h, -most, most)) * plane.normal;
+}
+
+double Fidelity::vertex_stiffness(Index v, const Vec3& p) const {
+  const TangentPlane& plane = vertex_planes[v];
+  const double height = dot(p - plane.point, plane.normal) - plane.offset;
+  const bool taut = std::abs(height) > leash * size.at(v);
+  return 2 * (weights.to_surface * vertex_weights[v] + (taut ? leash_stiffness(v) : 0));
+}
+
+// In the local size's units the same everywhere.
+double Fidelity::leash_stiffness(Index v) const { return kLeash / (size.at(v) * size.at(v)); }
 
 double Fidelity::mean_square(const mesh::EditableMesh& mesh) const {
   double sum = 0, total = 0;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -69,6 +70,9 @@ class Fidelity {
   [[nodiscard]] const spatial::TriangleBvh& surface_bvh() const { return *surface_bvh_; }
 
   FidelityWeights weights;
+  /// Distance from the tangent plane, where the size is 1, beyond which vertices are drawn back
+  /// so strongly that angles near the bounds give way first.
+  double leash = std::numeric_limits<double>::infinity();
   TargetSize size;       ///< frozen; before samples and planes
   PatchLabels patches;   ///< before samples and planes; empty: anything may be near anything
   Knots knots;           ///< empty: no vertex is on a curve that it may slide along
@@ -117,6 +121,11 @@ class Fidelity {
   double triangle(Index t, const std::array<Vec3, 3>& p, std::array<Vec3, 3>* gradient) const;
   /// Energy of a vertex at p against its tangent plane; adds to `gradient`.
   double vertex(Index v, const Vec3& p, Vec3* gradient) const;
+  /// `to` for vertex v at `from`, brought back along the normal to twice the leash from the tangent
+  /// plane, or to as far as it is now: no weight of the angles can pull it farther.
+  Vec3 on_leash(Index v, const Vec3& from, const Vec3& to) const;
+  /// Second derivative of that energy along the plane's normal.
+  double vertex_stiffness(Index v, const Vec3& p) const;
   /// Mean squared distance of the samples, by weight.
   [[nodiscard]] double mean_square(const mesh::EditableMesh& mesh) const;
 
@@ -134,6 +143,7 @@ class Fidelity {
 
   [[nodiscard]] Index walk_to_nearest(const mesh::EditableMesh& mesh, Index from,
                                       const Sample& sample, ClosestPoint& nearest) const;
+  [[nodiscard]] double leash_stiffness(Index v) const;
   void sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles);
   [[nodiscard]] TangentPlane plane(const Vec3& p, const Vec3& foot, Index facet) const;
 };
