@@ -88,14 +88,16 @@ std::vector<std::array<Index, 2>> read_edges(const std::string& path) {
 
 RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMesh& input,
                                   const std::atomic<bool>& interrupted) {
-  ProgressBar bar(progress_style(command.progress, command.quiet));
+  const ProgressStyle style = progress_style(command.progress, command.quiet);
+  ProgressBar bar(style);
   Context context;
   context.threads = command.threads;
   context.cancel = &interrupted;
-  context.progress = [&bar](const Progress& progress) {
-    bar.show(progress);
-    return true;
-  };
+  if (style != ProgressStyle::None)
+    context.progress = [&bar](const Progress& progress) {
+      bar.show(progress);
+      return true;
+    };
   RemeshOptions options = command.options;
   if (!command.sizes.empty()) options.target_lengths = read_lengths(command.sizes);
   if (!command.feature_edges.empty()) options.feature_edges = read_edges(command.feature_edges);

@@ -182,7 +182,8 @@ void Fidelity::walk_samples(const mesh::EditableMesh& mesh, const parallel::Work
   sort_samples(found, mesh.triangle_capacity());
 }
 
-void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles) {
+std::vector<Index> Fidelity::rewalk(const mesh::EditableMesh& mesh,
+                                    std::span<const Index> triangles) {
   std::vector<std::pair<Index, Index>> moves;  // sample, triangle
   for (Index t : triangles) {
     Index* link = &first[t];
@@ -199,10 +200,13 @@ void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> tri
     }
     update_triangle(mesh, t);
   }
+  std::vector<Index> receivers;
   for (const auto& [s, to] : moves) {
     samples[s].next = first[to];
     first[to] = s;
+    receivers.push_back(to);
   }
+  return receivers;
 }
 
 void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth) {
@@ -219,16 +223,18 @@ void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, 
 }
 
 Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                                       double growth, const parallel::Workers& workers) {
+                                       double growth, const parallel::Workers& workers,
+                                       const std::vector<Index>* only) {
   // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
   std::vector<Index> start(surface().vertices.size(), -1);
   std::vector<Sample> candidates;
   std::vector<Index> nearest;
   Index count = 0;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
-    for (Index s = first[t]; s >= 0; s = samples[s].next)
-      if (samples[s].vertex >= 0) start[samples[s].vertex] = -2;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
+  for (const Sample& sample : samples)
+    if (sample.vertex >= 0) start[sample.vertex] = -2;
+  const auto examined = static_cast<Index>(only ? only->size() : first.size());
+  for (Index i = 0; i < examined; ++i) {
+    const Index t = only ? (*only)[i] : i;
     for (Index s = first[t]; s >= 0; s = samples[s].next) {
       Sample& sample = samples[s];
       if (sample.vertex >= 0) {
@@ -246,6 +252,7 @@ Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double fa
         nearest.push_back(t);
       }
     }
+  }
   std::vector<char> is_far(candidates.size());
   workers.for_each(candidates.size(), kChunk, [&](std::size_t i) {
     ClosestPoint closest;

@@ -95,15 +95,18 @@ class Fidelity {
   /// samples by triangle.
   void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
-  void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Returns the triangles that got samples of others.
+  std::vector<Index> rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Points of T that stick out: multiplies by `growth` the weights of vertices and midpoints
   /// farther than `far` from their tangent planes.
   void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);
   /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
   /// samples of the given weight; of those added before, multiplies the weights by `growth` where
-  /// they are still far. Returns how many are far.
+  /// they are still far. With `only` just those near samples of these triangles. Returns how many
+  /// are far.
   Index emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                               double growth, const parallel::Workers& workers);
+                               double growth, const parallel::Workers& workers,
+                               const std::vector<Index>* only = nullptr);
   /// Gives the samples of these triangles to the nearest of them (after a local edit).
   void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Feet, tangent planes and weights of all vertices and midpoints: by search where there is none

@@ -6,7 +6,6 @@
 
 #include "nonobtuse/quality.h"
 #include "numeric/vec3.h"
-#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
@@ -25,10 +24,9 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
 // Squared distance, in edge lengths, within which the sheet told by the normal is preferred.
 constexpr double kNear = 4;
 
-void append(const Part& part, const NormalizedInput& input, const TriangleMesh& working,
-            const parallel::Workers& workers, RemeshResult& result) {
+void append(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
+            const TriangleMesh& working, const parallel::Workers& workers, RemeshResult& result) {
   const mesh::Surface& surface = input.surface;
-  const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
   const std::vector<Vec3> normals = vertex_normals(working);
   const std::size_t first = result.mesh.vertices.size();
   const std::size_t count = working.vertices.size();
@@ -51,15 +49,17 @@ void append(const Part& part, const NormalizedInput& input, const TriangleMesh& 
 
 }  // namespace
 
-void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
-                 const parallel::Workers& workers, RemeshResult& result) {
-  append(part, input, mesh.to_mesh(), workers, result);
+void append_part(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
+                 const mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                 RemeshResult& result) {
+  append(part, input, bvh, mesh.to_mesh(), workers, result);
 }
 
 void append_part(const Part& part, const NormalizedInput& input, const GluedMesh& glued,
                  const parallel::Workers& workers, RemeshResult& result) {
   const auto first = static_cast<Index>(result.mesh.vertices.size());
-  append(part, input, glued.mesh, workers, result);
+  const spatial::TriangleBvh bvh(input.surface.vertices, input.surface.triangles, workers);
+  append(part, input, bvh, glued.mesh, workers, result);
   for (std::size_t v = 0; v < glued.source.size(); ++v)
     if (glued.source[v] >= 0) result.mesh.vertices[first + v] = part.mesh.vertices[glued.source[v]];
   for (const std::array<Index, 2>& e : glued.feature_edges)

@@ -169,11 +169,12 @@ class FeaturedPart {
     clock_.run("cvt", 0.02, 0.5, [&] { mesh_patches(); });
     reduce();
     if (!monitor.cancelled()) {
+      const spatial::TriangleBvh bvh(cut_.surface.vertices, cut_.surface.triangles, workers_);
       clock_.run("valence", 0.5, 0.55, [&] {
-        return optimize_valence(cut_.surface, mesh_, workers_, monitor, &network_);
+        return optimize_valence(cut_.surface, bvh, mesh_, workers_, monitor, &network_);
       });
       clock_.run("refinement", 0.55, 1, [&] {
-        return refine(cut_.surface, mesh_, refinement_options(options_), workers_, monitor,
+        return refine(cut_.surface, bvh, mesh_, refinement_options(options_), workers_, monitor,
                       &network_);
       });
     }

@@ -38,15 +38,14 @@ constexpr double kMendingLeash = 0.2;
 class Refinement {
  public:
   Refinement(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor, const mesh::CurveNetwork* curves)
+             const spatial::TriangleBvh& bvh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor,
+             const mesh::CurveNetwork* curves)
       : mesh_(mesh),
-
         options_(options),
         workers_(workers),
         monitor_(monitor),
-        bvh_(surface.vertices, surface.triangles, workers),
-        fidelity_(surface, bvh_),
+        fidelity_(surface, bvh),
         descent_(mesh, fidelity_, options.on_surface, workers) {
     fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
@@ -104,7 +103,9 @@ class Refinement {
                                 [&](double f) { return tick(0.75 + 0.15 * f); });
   }
 
-  bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
+  bool tick(double fraction) {
+    return monitor_.tick_counting(fraction, [&] { return refine::count_obtuse(mesh_); });
+  }
 
   void record() {
     if (!monitor_.recording()) return;
@@ -160,7 +161,6 @@ class Refinement {
   RefinementOptions options_;
   const parallel::Workers& workers_;
   parallel::Monitor& monitor_;
-  spatial::TriangleBvh bvh_;
   refine::Fidelity fidelity_;
   refine::GlobalDescent descent_;
   int done_ = 0;  // iterations of the descents so far
@@ -168,9 +168,10 @@ class Refinement {
 
 }  // namespace
 
-Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor, mesh::CurveNetwork* curves) {
+Index refine(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+             mesh::EditableMesh& mesh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor,
+             mesh::CurveNetwork* curves) {
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
@@ -178,7 +179,7 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
     const refine::AngleTest test({options.min_angle, options.max_angle});
     return static_cast<Index>(refine::triangles_outside(mesh, test).size());
   }
-  Refinement refinement(surface, mesh, options, workers, monitor, curves);
+  Refinement refinement(surface, mesh, bvh, options, workers, monitor, curves);
   const Index outside = refinement.run();
   if (curves) refinement.store_knots(*curves);
   mesh.compact();

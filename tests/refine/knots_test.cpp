@@ -168,8 +168,9 @@ CutOutcome refined(test::CutCase c, int threads = 1) {
   const Context context;
   parallel::Monitor monitor(context);
   CutOutcome o;
-  pipeline::optimize_valence(c.made.surface, c.made.mesh, workers, monitor, &c.curves);
-  o.outside = pipeline::refine(c.made.surface, c.made.mesh, {}, workers, monitor, &c.curves);
+  const spatial::TriangleBvh bvh(c.made.surface.vertices, c.made.surface.triangles, workers);
+  pipeline::optimize_valence(c.made.surface, bvh, c.made.mesh, workers, monitor, &c.curves);
+  o.outside = pipeline::refine(c.made.surface, bvh, c.made.mesh, {}, workers, monitor, &c.curves);
   o.cut = std::move(c);
   return o;
 }
