@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "parallel/workers.h"
 #include "rdt/delaunay_flips.h"
-#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::rdt {
 
