@@ -86,6 +86,15 @@ double parse_number(const std::string& text, const std::string& whole, const cha
   return value;
 }
 
+void set_max_error(const std::string& text, RemeshOptions& options) {
+  if (!text.empty() && text.back() == '%') {
+    options.relative_max_error =
+        parse_number(text.substr(0, text.size() - 1), text, "--max-error") / 100;
+  } else {
+    options.max_error = parse_number(text, text, "--max-error");
+  }
+}
+
 void set_edge_length(const std::string& text, RemeshOptions& options) {
   if (!text.empty() && text.back() == '%') {
     options.relative_edge_length =
@@ -141,6 +150,7 @@ void add_threads(CLI::App& command, int& threads) {
 struct Draft {
   RemeshCommand remesh;
   std::optional<std::string> edge_length;
+  std::optional<std::string> max_error;
   std::string method = "default";
   std::string sizing = "uniform";
   MeasureCommand measure;
@@ -178,6 +188,11 @@ void add_remesh(CLI::App& app, Draft& draft) {
                   "How fast the target edge length may grow along the surface, per length")
       ->type_name("G")
       ->capture_default_str();
+  command
+      .add_option("--max-error", draft.max_error,
+                  "Add vertices until the two-sided distance to the input, as measured, is at most "
+                  "this length, or 0.2% of the bounding-box diagonal")
+      ->type_name("E");
   command
       .add_option(
           "--method", draft.method,
@@ -261,8 +276,9 @@ void add_certify(CLI::App& app, CertifyCommand& c) {
 }
 
 void add_convert(CLI::App& app, ConvertCommand& c) {
-  CLI::App& command =
-      *app.add_subcommand("convert", "Write a mesh in another format, coordinates kept");
+  CLI::App& command = *app.add_subcommand(
+      "convert",
+      "Write a mesh in another format, coordinates kept; attributes where it holds them");
   command.add_option("input", c.input, "Mesh to read")->required()->type_name("FILE");
   command.add_option("output", c.output.path, "File to write: .obj, .off, .ply or .stl")
       ->required()
@@ -308,6 +324,7 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
   if (app.got_subcommand("remesh")) {
     RemeshOptions& options = draft.remesh.options;
     if (draft.edge_length) set_edge_length(*draft.edge_length, options);
+    if (draft.max_error) set_max_error(*draft.max_error, options);
     options.method = parse_method(draft.method);
     set_sizing(draft.sizing, draft.remesh);
     if (options.iterations > 0 && options.method == Method::Default)

@@ -145,6 +145,8 @@ Json to_json(const RemeshOptions& options) {
           {"method", name_of(options.method)},
           {"sizing", name_of(options.sizing)},
           {"gradation", options.gradation},
+          {"max_error", options.max_error},
+          {"relative_max_error", options.relative_max_error},
           {"min_angle", options.min_angle},
           {"max_angle", options.max_angle},
           {"on_surface", options.on_surface},

@@ -28,6 +28,7 @@ constexpr std::size_t kDistanceLimit = 400'000;
 // What was done and how good it is.
 struct Outcome {
   TriangleMesh input;
+  MeshAttributes attributes;  ///< of the input
   std::vector<Repair> repairs;
   RemeshResult result;
   TriangleMesh written;  ///< the result as a reader of the file sees it
@@ -37,12 +38,13 @@ struct Outcome {
   std::optional<SurfaceDistance> distance;
 };
 
-TriangleMesh read_clean(const std::string& path, std::vector<Repair>& repairs) {
+void read_clean(const std::string& path, Outcome& outcome) {
   ReadResult read = read_mesh(path);
-  repairs = std::move(read.repairs);
-  CleanResult cleaned = clean(read.mesh);
-  repairs.insert(repairs.end(), cleaned.repairs.begin(), cleaned.repairs.end());
-  return std::move(cleaned.mesh);
+  CleanResult cleaned = clean(read.mesh, read.attributes);
+  outcome.repairs = std::move(read.repairs);
+  outcome.repairs.insert(outcome.repairs.end(), cleaned.repairs.begin(), cleaned.repairs.end());
+  outcome.input = std::move(cleaned.mesh);
+  outcome.attributes = std::move(cleaned.attributes);
 }
 
 // One positive number for each vertex, separated by white space.
@@ -103,6 +105,7 @@ void print_json(const RemeshCommand& command, const Outcome& outcome, int code) 
             {"promise", to_json(outcome.promise, outcome.written, kTrianglesNamed)},
             {"seconds", outcome.seconds},
             {"stages", to_json(outcome.result.stages)}};
+  if (outcome.result.max_error > 0) json["max_error"] = outcome.result.max_error;
   if (command.options.history) json["history"] = to_json(outcome.result.history);
   if (outcome.distance) json["distance"] = to_json(*outcome.distance);
   fmt::print("{}", dump(json));
@@ -118,6 +121,8 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
   const SizeRatio& ratio = outcome.result.size_ratio;
   fmt::print("edge length over target: median {:.3f}, 90 % of all in {:.3f} .. {:.3f}\n",
              ratio.median, ratio.percentile_5, ratio.percentile_95);
+  if (outcome.result.max_error > 0)
+    fmt::print("distance to the input at most {:.4g}, as measured\n", outcome.result.max_error);
   const std::string& path = command.output.path;
   fmt::print("{}", certificate_text(path, outcome.written, outcome.goal, kTrianglesNamed));
   // A goal that was missed may still leave the promise kept.
@@ -139,7 +144,7 @@ int run(const RemeshCommand& command) {
   const auto start = std::chrono::steady_clock::now();
   const std::atomic<bool>& interrupted = catch_interrupts();
   Outcome outcome;
-  outcome.input = read_clean(command.input, outcome.repairs);
+  read_clean(command.input, outcome);
   outcome.result = remesh_with_progress(command, outcome.input, interrupted);
   if (outcome.result.mesh.triangles.empty()) {
     fmt::print(stderr, "nonobtuse: cancelled before there was a mesh; nothing was written.\n");
@@ -149,7 +154,10 @@ int run(const RemeshCommand& command) {
   outcome.written = as_written(command.output.path, outcome.result.mesh, write_options);
   outcome.goal = certify(outcome.written, {command.options.min_angle, command.options.max_angle});
   outcome.promise = certify(outcome.written);
-  write_output(command.output, outcome.result.mesh);
+  MeshAttributes attributes;
+  if (!outcome.attributes.empty())
+    attributes = transfer_attributes(outcome.input, outcome.attributes, outcome.result);
+  write_output(command.output, outcome.result.mesh, attributes);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const int code = exit_code_of(outcome);

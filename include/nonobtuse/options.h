@@ -47,6 +47,12 @@ struct RemeshOptions {
   /// Keep every vertex on the input surface instead of at the offset that minimises the distance;
   /// `Method::Default` only.
   bool on_surface = false;
+  /// Bound on the two-sided distance between input and result, measured by sampling as
+  /// `measure_distance` does, in input units; 0 = none. Vertices are added where it is exceeded
+  /// until it holds: `vertices` (or the edge length) is then the start and no promise.
+  double max_error = 0;
+  /// The same relative to the diagonal of the input's bounding box; 0 = none.
+  double relative_max_error = 0;
   /// Weight lambda of the short-dual penalty in `Method::CvtNob` (Eq. 3), times area / vertices.
   double penalty = 0.01;
   /// Weight s of the normal part of the feature-sensitive energy (Eq. 2), at least 1, in

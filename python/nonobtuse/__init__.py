@@ -11,6 +11,7 @@ array-like of numbers, in any memory order, and never changes it. Nothing here i
 run in several threads at once, and the GIL is released while they work.
 """
 
+from ._attributes import Attributes, attribute_borders
 from ._core import version as __version__
 from ._errors import Cancelled, InvalidInput, TooFewVertices
 from ._files import clean, read, sample, write
@@ -26,6 +27,7 @@ from ._stages import (
 )
 
 __all__ = [
+    "Attributes",
     "Cancelled",
     "Certificate",
     "CvtEnergy",
@@ -37,6 +39,7 @@ __all__ = [
     "Status",
     "TooFewVertices",
     "__version__",
+    "attribute_borders",
     "certify",
     "clean",
     "cvt_energy",

@@ -14,6 +14,7 @@
 #include "parallel/workers.h"
 #include "remesh/certification.h"
 #include "remesh/cvt_optimization.h"
+#include "remesh/error_bound.h"
 #include "remesh/extraction.h"
 #include "remesh/normalization.h"
 #include "remesh/paper_method.h"
@@ -130,12 +131,9 @@ void require_vertices(const std::vector<pipeline::Part>& parts, Index n) {
         least);
 }
 
-}  // namespace
-
-RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
-                    const Context& context) {
-  pipeline::check_options(options);
-  pipeline::check_input(input);
+// The pipeline on all parts; options and input are fine, and there is no bound on the distance.
+RemeshResult remesh_unbounded(const TriangleMesh& input, const RemeshOptions& options,
+                              const Context& context) {
   const parallel::Workers workers(context.threads);
   std::vector<IterationRecord> history;
   parallel::Monitor monitor(context, options.history ? &history : nullptr);
@@ -169,6 +167,19 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   result.history = std::move(history);
   if (monitor.cancelled()) result.status = Status::Cancelled;
   return result;
+}
+
+}  // namespace
+
+RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
+                    const Context& context) {
+  pipeline::check_options(options);
+  pipeline::check_input(input);
+  if (pipeline::error_bound(input, options) <= 0) return remesh_unbounded(input, options, context);
+  return pipeline::remesh_within(input, options, context,
+                                 [&](const RemeshOptions& with, const Context& within) {
+                                   return remesh_unbounded(input, with, within);
+                                 });
 }
 
 }  // namespace nonobtuse

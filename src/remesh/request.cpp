@@ -60,6 +60,12 @@ void check_options(const RemeshOptions& options) {
   if (!(options.penalty >= 0) || !std::isfinite(options.penalty))
     throw InvalidInput(
         fmt::format("the penalty must be non-negative and finite, not {}.", options.penalty));
+  for (const double bound : {options.max_error, options.relative_max_error})
+    if (!(bound >= 0) || !std::isfinite(bound))
+      throw InvalidInput(
+          fmt::format("the largest distance must be positive and finite, not {}.", bound));
+  if (options.max_error > 0 && options.relative_max_error > 0)
+    throw InvalidInput("give one bound on the distance, not two.");
   if (!(options.normal_weight >= 1) || !std::isfinite(options.normal_weight))
     throw InvalidInput(fmt::format(
         "the weight of the normal must be at least 1 and finite, not {}.", options.normal_weight));
@@ -87,6 +93,12 @@ void check_input(const TriangleMesh& input) {
           "the mesh needs repair ({}: {}, the first at index {}): pass it through clean() first.",
           first.what, first.count, first.first),
       first.first);
+}
+
+double error_bound(const TriangleMesh& input, const RemeshOptions& options) {
+  if (options.max_error > 0) return options.max_error;
+  return options.relative_max_error > 0 ? options.relative_max_error * bounding_box_diagonal(input)
+                                        : 0;
 }
 
 Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options) {
