@@ -22,7 +22,8 @@ struct AngleQuality {
   double percent_small = 0;        ///< % of triangles with an angle < 30
   double percent_obtuse = 0;       ///< % of triangles with an angle >= 90
   double percent_valence_567 = 0;  ///< % of vertices of valence 5, 6, 7; a boundary vertex counts
-                                   ///< as good with 3, 4 or 5 neighbours (sides of 180 degrees)
+                                   ///< as good if its k triangles can share the angle they fill:
+                                   ///< a mean of 42 to 78 degrees each (3 or 4 on straight sides)
 };
 
 /// Combinatorics of a mesh.

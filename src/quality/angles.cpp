@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "mesh/sector_valence.h"
+#include "mesh/surface.h"
 #include "nonobtuse/quality.h"
 #include "numeric/predicates.h"
 #include "numeric/vec3.h"
@@ -119,8 +121,7 @@ Index count_obtuse(std::span<const Vec3> vertices, std::span<const Triangle> tri
 
 namespace {
 
-// Boundary vertices: four triangles of 60 degrees would be 5 neighbours on a side of 240 degrees,
-// three are the 4 of a straight side; 3 to 5 is as near to it as 5 to 7 is to 6.
+// Interior vertices: 5 to 7 neighbours; boundary vertices: as the angle of their sector asks for.
 double percent_of_good_valence(const TriangleMesh& mesh) {
   const EdgeList edges(mesh.triangles, mesh.vertices.size());
   std::vector<int> valence(mesh.vertices.size(), 0);
@@ -132,13 +133,20 @@ double percent_of_good_valence(const TriangleMesh& mesh) {
       if (e.sides.size() == 1) boundary[v] = 1;
     }
   }
+  std::vector<double> sector(mesh.vertices.size(), 0);  // degrees
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (boundary[t[k]] != 0)
+        sector[t[k]] += mesh::corner_degrees(mesh.vertices[t[k]], mesh.vertices[t[mesh::next(k)]],
+                                             mesh.vertices[t[mesh::previous(k)]]);
   Index used = 0;
   Index good = 0;
   for (std::size_t v = 0; v < valence.size(); ++v) {
     if (valence[v] == 0) continue;
     ++used;
-    const int equivalent = valence[v] + (boundary[v] != 0 ? 2 : 0);
-    if (equivalent >= 5 && equivalent <= 7) ++good;
+    const mesh::ValenceRange range =
+        boundary[v] != 0 ? mesh::sector_valence(sector[v]) : mesh::ValenceRange{};
+    if (range.contains(valence[v])) ++good;
   }
   return used > 0 ? 100.0 * good / used : 0;
 }

@@ -38,7 +38,8 @@ void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
   Fidelity best_fidelity = fidelity;
   for (int sweep = 0, idle = 0; sweep < kSweeps && idle < kPatience && !bad.empty(); ++sweep) {
     if (!keep_going(static_cast<double>(sweep) / kSweeps)) break;
-    const std::vector<Index> active = dilated(mesh, bad, 2);
+    std::vector<Index> active = dilated(mesh, bad, 2);
+    fidelity.knots.add_copies(mesh, active);
     relax(mesh, fidelity, active, options, workers);
     const std::vector<Index> touched = triangles_around(mesh, active);
     fidelity.rewalk(mesh, touched);

@@ -96,7 +96,8 @@ void polish_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOp
       *p.factor *= kGrowth;
       places.push_back(p.triangle);
     }
-    const std::vector<Index> active = dilated(mesh, places, 2);
+    std::vector<Index> active = dilated(mesh, places, 2);
+    fidelity.knots.add_copies(mesh, active);
     const std::vector<Index> touched = triangles_around(mesh, active);
     for (int i = 0; i < 2; ++i) {
       relax(mesh, fidelity, active, {options.shape, 3, options.on_surface}, workers);

@@ -124,6 +124,15 @@ Vec3 vertex_area_vector(const mesh::EditableMesh& mesh, Index v) {
   return sum;
 }
 
+void Fidelity::attach_curves(const mesh::EditableMesh& mesh, const mesh::CurveNetwork* curves,
+                             const parallel::Workers& workers) {
+  valences.measure(mesh);
+  if (!curves || mesh.knot.empty()) return;
+  knots = Knots(*curves, mesh);
+  patches.of_facet = std::make_shared<const std::vector<Index>>(surface_patches(surface()));
+  patches.of_vertex = mesh_patches(mesh, surface(), surface_bvh(), *patches.of_facet, workers);
+}
+
 void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers) {
   std::vector<Triangle> triangles;
   std::vector<Index> old;
@@ -136,9 +145,15 @@ void Fidelity::search_samples(const mesh::EditableMesh& mesh, const parallel::Wo
     const auto agrees = [&](Index t) {
       return dot(area_vector(corners(mesh, old[t])), normal) >= 0;
     };
+    const auto same_patch = [&](Index t) {
+      return patches.agree(samples[s].facet, mesh.triangle(old[t])[0]);
+    };
     // Beyond two edge lengths, agreement is worth less than nearness.
     const double local = surface().size_at(samples[s].facet, {1.0 / 3, 1.0 / 3, 1.0 / 3});
-    auto hit = bvh.closest_if(samples[s].point, 4.0 * local * local, agrees);
+    auto hit = bvh.closest_if(samples[s].point, 4.0 * local * local,
+                              [&](Index t) { return same_patch(t) && agrees(t); });
+    if (hit.triangle < 0)
+      hit = bvh.closest_if(samples[s].point, std::numeric_limits<double>::infinity(), same_patch);
     if (hit.triangle < 0) hit = bvh.closest(samples[s].point);
     found[s] = old[hit.triangle];
   });
@@ -304,9 +319,15 @@ TangentPlane Fidelity::plane(const Vec3& p, const Vec3& foot, Index facet) const
   return result;
 }
 
-TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal, double reach) const {
-  const auto agrees = [&](Index f) { return dot(surface().normals[f], normal) >= 0; };
+TangentPlane Fidelity::search_foot(const Vec3& p, const Vec3& normal, double reach,
+                                   Index vertex) const {
+  const auto same_patch = [&](Index f) { return vertex < 0 || patches.agree(f, vertex); };
+  const auto agrees = [&](Index f) {
+    return dot(surface().normals[f], normal) >= 0 && same_patch(f);
+  };
   auto hit = surface_bvh_->closest_if(p, reach * reach, agrees);
+  if (hit.triangle < 0)
+    hit = surface_bvh_->closest_if(p, std::numeric_limits<double>::infinity(), same_patch);
   if (hit.triangle < 0) hit = surface_bvh_->closest(p);
   return plane(p, hit.point, hit.triangle);
 }
@@ -333,8 +354,9 @@ void Fidelity::update_vertex(const mesh::EditableMesh& mesh, Index v, bool searc
   });
   vertex_weights[v] = plane.emphasis * weight;
   if (!size.uniform()) vertex_weights[v] *= TargetSize::fidelity_factor(size.at(v) * size.at(v));
-  plane.move_to(search || plane.facet < 0 ? search_foot(mesh.positions[v], normal, 2 * size.at(v))
-                                          : walk_foot(mesh.positions[v], plane.facet));
+  plane.move_to(search || plane.facet < 0
+                    ? search_foot(mesh.positions[v], normal, 2 * size.at(v), v)
+                    : walk_foot(mesh.positions[v], plane.facet));
 }
 
 void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool search) {
@@ -349,7 +371,7 @@ void Fidelity::update_triangle(const mesh::EditableMesh& mesh, Index t, bool sea
     const bool known = plane.facet >= 0 && !search;
     if (known) plane.move_to(walk_foot(middle, plane.facet));
     if (!known || dot(surface().normals[plane.facet], normal) < 0)
-      plane.move_to(search_foot(middle, normal, 2 * std::sqrt(area)));
+      plane.move_to(search_foot(middle, normal, 2 * std::sqrt(area), mesh.triangle(t)[0]));
   }
 }
 

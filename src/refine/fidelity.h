@@ -13,8 +13,11 @@
 #include "mesh/editable_mesh.h"
 #include "mesh/surface.h"
 #include "parallel/workers.h"
+#include "refine/knots.h"
+#include "refine/surface_patches.h"
 #include "refine/target_size.h"
 #include "refine/triangle_frame.h"
+#include "refine/valence_rule.h"
 #include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::refine {
@@ -66,7 +69,10 @@ class Fidelity {
   [[nodiscard]] const spatial::TriangleBvh& surface_bvh() const { return *surface_bvh_; }
 
   FidelityWeights weights;
-  TargetSize size;  ///< frozen; before samples and planes
+  TargetSize size;       ///< frozen; before samples and planes
+  PatchLabels patches;   ///< before samples and planes; empty: anything may be near anything
+  Knots knots;           ///< empty: no vertex is on a curve that it may slide along
+  ValenceRule valences;  ///< of the mesh's boundary vertices
   std::vector<Sample> samples;
   std::vector<Index> first;                 ///< #T, head of each triangle's list of samples
   std::vector<TangentPlane> vertex_planes;  ///< #V
@@ -74,6 +80,11 @@ class Fidelity {
   std::vector<double> vertex_weights;       ///< #V, frozen: ring area / 12
   std::vector<double> edge_weights;         ///< #T, frozen: a quarter of the area for each edge
 
+  /// Before anything else on a mesh with boundary: measures the sectors' angles; with `curves`
+  /// (and a mesh with knots) takes over the knots and finds which patches belong together. The
+  /// curves must outlive this object.
+  void attach_curves(const mesh::EditableMesh& mesh, const mesh::CurveNetwork* curves,
+                     const parallel::Workers& workers);
   /// Gives every sample to the nearest triangle that agrees with it, by search.
   void search_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same by walking over the mesh from the present triangle to nearer neighbours; sorts the
@@ -108,7 +119,9 @@ class Fidelity {
 
   /// Foot of p on M on the side that `normal` looks to, by search within `reach`, if there
   /// is such a side; else the nearest point.
-  [[nodiscard]] TangentPlane search_foot(const Vec3& p, const Vec3& normal, double reach) const;
+  /// With `vertex` >= 0 only on the patch of the surface that this vertex of T belongs to.
+  [[nodiscard]] TangentPlane search_foot(const Vec3& p, const Vec3& normal, double reach,
+                                         Index vertex = -1) const;
   /// Foot of p on M by walking over the facets from `facet`.
   [[nodiscard]] TangentPlane walk_foot(const Vec3& p, Index facet) const;
 

@@ -57,7 +57,7 @@ bool worth_trying(const mesh::EditableMesh& mesh, mesh::Edge e) {
 
 bool try_flip(mesh::EditableMesh& mesh, Fidelity& fidelity, const energy::ShapeWeights& shape,
               mesh::Edge e) {
-  if (!worth_trying(mesh, e) || !flip_allowed(mesh, e)) return false;
+  if (!worth_trying(mesh, e) || !flip_allowed(mesh, fidelity, e)) return false;
   if (!(flip_gain(mesh, fidelity, shape, e) > 1e-9)) return false;
   const Index other = mesh.twin(e).triangle;
   mesh.flip(e);
@@ -69,25 +69,16 @@ bool try_flip(mesh::EditableMesh& mesh, Fidelity& fidelity, const energy::ShapeW
 
 }  // namespace
 
-bool good_valence(int valence, bool boundary) {
-  return boundary ? valence >= 3 && valence <= 6 : valence >= 5 && valence <= 7;
-}
-
-bool valence_change_allowed(int from, int to, bool boundary) {
-  if (good_valence(to, boundary)) return true;
-  const int ideal = boundary ? 4 : 6;
-  return std::abs(to - ideal) < std::abs(from - ideal);
-}
-
-bool flip_allowed(const mesh::EditableMesh& mesh, mesh::Edge e) {
+bool flip_allowed(const mesh::EditableMesh& mesh, const Fidelity& fidelity, mesh::Edge e) {
   if (!mesh.can_flip(e)) return false;
   const mesh::Edge o = mesh.twin(e);
   const Index a = mesh.tail(e), b = mesh.head(e);
   const Index p = mesh.opposite_vertex(e), q = mesh.opposite_vertex(o);
   const auto allowed = [&](Index v, int change) {
-    return valence_change_allowed(mesh.valence(v), mesh.valence(v) + change, mesh.on_boundary(v));
+    return fidelity.valences.change_allowed(v, mesh.valence(v), mesh.valence(v) + change);
   };
   if (!allowed(a, -1) || !allowed(b, -1) || !allowed(p, 1) || !allowed(q, 1)) return false;
+  if (!fidelity.knots.edge_allowed(mesh, p, q)) return false;
   const std::vector<Vec3>& x = mesh.positions;
   const Vec3 old1 = area_vector(x[p], x[a], x[b]), old2 = area_vector(x[q], x[b], x[a]);
   const Vec3 new1 = normalized(area_vector(x[p], x[a], x[q]));

@@ -9,15 +9,9 @@
 
 namespace nonobtuse::refine {
 
-/// Valences that flips must not leave: interior vertices [5, 7], boundary vertices [3, 6]
-/// neighbours, that is 2 to 5 triangles.
-bool good_valence(int valence, bool boundary);
-/// Whether a change of valence is allowed: it ends good, or comes nearer.
-bool valence_change_allowed(int from, int to, bool boundary);
-
-/// Whether flipping e keeps the valences in order and does not turn a triangle over: the new
-/// triangles agree with the old ones and with each other.
-bool flip_allowed(const mesh::EditableMesh& mesh, mesh::Edge e);
+/// Whether flipping e keeps the valences in order (or mends them), joins no two knots twice and
+/// does not turn a triangle over: the new triangles agree with the old ones and with each other.
+bool flip_allowed(const mesh::EditableMesh& mesh, const Fidelity& fidelity, mesh::Edge e);
 
 /// Flips edges while that lowers the energy, in order of index; at most a few rounds. With
 /// `triangles`, only edges of these (and what flips make of their surroundings) are tried. The

@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t kChunk = 512;
 constexpr double kLongestStep = 0.3;  // of a vertex of size 1, where the ideal edge is 1.07 long
 constexpr int kHalvings = 6;
+constexpr double kKnotSpacing = 0.25;  // least distance of knots along a curve, where the size is 1
 
 // Tangential stiffness of a triangle's shape energy.
 double shape_stiffness(const std::array<Vec3, 3>& p, const energy::ShapeWeights& w) {
@@ -45,7 +46,9 @@ void GlobalDescent::freeze() {
   for (Index t = 0; t < triangles; ++t)
     for (int k = 0; k < 3; ++k) corner_[fill[mesh_.triangle(t)[k]]++] = 3 * t + k;
   fixed_.resize(vertices);
-  for (Index v = 0; v < vertices; ++v) fixed_[v] = mesh_.on_boundary(v);
+  const bool knots = !fidelity_.knots.empty();
+  for (Index v = 0; v < vertices; ++v)
+    fixed_[v] = mesh_.on_boundary(v) || (knots && mesh_.knot[v] >= 0);
 
   // corner_gradient_ serves as scratch: x holds the shape's stiffness, y the samples'.
   corner_gradient_.resize(triangles);
@@ -78,6 +81,43 @@ void GlobalDescent::freeze() {
     const double vertical = 0.3 * sum.x + 2 * sum.y + surface;
     blocks_[v] = {fidelity_.vertex_planes[v].normal, 1 / tangential, 1 / vertical};
   });
+  freeze_knots();
+}
+
+void GlobalDescent::freeze_knots() {
+  Knots& knots = fidelity_.knots;
+  knots.make_canonical();
+  sliding_.clear();
+  for (Index k = 0; k < static_cast<Index>(knots.all.size()); ++k)
+    if (knots.all[k].slides && !knots.all[k].copies.empty()) sliding_.push_back(k);
+  for (const Index k : sliding_) {
+    double stiffness = 0;
+    for (const Index v : knots.all[k].copies) stiffness += 1 / blocks_[v].tangential;
+    blocks_[knots.all[k].copies.front()] = {{}, 1 / stiffness, 0};
+  }
+}
+
+void GlobalDescent::knot_gradient(std::vector<Vec3>& gradient) const {
+  for (const Index k : sliding_) {
+    const SlidingKnot& knot = fidelity_.knots.all[k];
+    Vec3 sum;
+    for (const Index v : knot.copies) {
+      for (Index c = corner_start_[v]; c < corner_start_[v + 1]; ++c)
+        sum += corner_gradient_[corner_[c] / 3][corner_[c] % 3];
+      fidelity_.vertex(v, mesh_.positions[v], &sum);
+    }
+    const Vec3 tangent = mesh::tangent_at(fidelity_.knots.curve(k), knot.place.arc);
+    gradient[knot.copies.front()] = {dot(sum, tangent), 0, 0};
+  }
+}
+
+void GlobalDescent::limit_knot_steps(std::vector<Vec3>& direction) const {
+  for (const Index k : sliding_) {
+    const Index v = fidelity_.knots.all[k].copies.front();
+    const double local = fidelity_.size.at(v);
+    const double step = std::clamp(direction[v].x, -kLongestStep * local, kLongestStep * local);
+    direction[v] = {fidelity_.knots.limited(k, step, kKnotSpacing * local), 0, 0};
+  }
 }
 
 double GlobalDescent::evaluate(std::vector<Vec3>& gradient) {
@@ -107,6 +147,7 @@ double GlobalDescent::evaluate(std::vector<Vec3>& gradient) {
         }
         return sum;
       });
+  knot_gradient(gradient);
   return triangles + vertices;
 }
 
@@ -120,11 +161,22 @@ void GlobalDescent::precondition(std::span<const Vec3> in, std::span<Vec3> out) 
 
 void GlobalDescent::move(const std::vector<Vec3>& direction, double step) {
   workers_.for_each(direction.size(), kChunk, [&](std::size_t v) {
+    if (fixed_[v]) return;
     mesh_.positions[v] = origin_[v] + step * direction[v];
     if (on_surface_ && !fixed_[v])
       mesh_.positions[v] =
           fidelity_.walk_foot(mesh_.positions[v], fidelity_.vertex_planes[v].facet).point;
   });
+  Knots& knots = fidelity_.knots;
+  for (std::size_t i = 0; i < sliding_.size(); ++i)
+    knots.move(mesh_, sliding_[i],
+               arc_origin_[i] + step * direction[knots.all[sliding_[i]].copies.front()].x);
+}
+
+void GlobalDescent::put_back() {
+  mesh_.positions = origin_;
+  for (std::size_t i = 0; i < sliding_.size(); ++i)
+    fidelity_.knots.all[sliding_[i]].place.arc = arc_origin_[i];
 }
 
 bool GlobalDescent::search_line(const std::vector<Vec3>& direction, double slope,
@@ -138,7 +190,7 @@ bool GlobalDescent::search_line(const std::vector<Vec3>& direction, double slope
       return true;
     }
   }
-  mesh_.positions = origin_;
+  put_back();
   return false;
 }
 
@@ -152,11 +204,14 @@ void GlobalDescent::run(int iterations, const std::function<bool()>& keep_going)
       if (on_surface_) direction[v] -= dot(direction[v], blocks_[v].normal) * blocks_[v].normal;
       const double l = length(direction[v]);
       if (fixed_[v])
-        direction[v] = {};
+        direction[v] = {direction[v].x, 0, 0};  // a knot's step; zero for those that stay
       else if (l > kLongestStep * fidelity_.size.at(static_cast<Index>(v)))
         direction[v] *= kLongestStep * fidelity_.size.at(static_cast<Index>(v)) / l;
     }
+    limit_knot_steps(direction);
     origin_ = mesh_.positions;
+    arc_origin_.clear();
+    for (const Index k : sliding_) arc_origin_.push_back(fidelity_.knots.all[k].place.arc);
     const double slope = optimize::dot(direction, gradient_, workers_);
     const bool fresh = history_.size() == 0;
     if (slope >= 0 || !search_line(direction, slope, fresh ? 0.7 : 1.0)) {
@@ -167,6 +222,11 @@ void GlobalDescent::run(int iterations, const std::function<bool()>& keep_going)
     for (std::size_t v = 0; v < direction.size(); ++v) {
       direction[v] = mesh_.positions[v] - origin_[v];
       change[v] = trial_gradient_[v] - gradient_[v];
+    }
+    for (std::size_t j = 0; j < sliding_.size(); ++j) {
+      const SlidingKnot& knot = fidelity_.knots.all[sliding_[j]];
+      direction[knot.copies.front()] = {knot.place.arc - arc_origin_[j], 0, 0};
+      for (std::size_t c = 1; c < knot.copies.size(); ++c) direction[knot.copies[c]] = {};
     }
     history_.add(direction, change, workers_);
     std::swap(gradient_, trial_gradient_);

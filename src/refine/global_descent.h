@@ -16,7 +16,8 @@ namespace nonobtuse::refine {
 
 class GlobalDescent {
  public:
-  /// `mesh` (compact) and `fidelity` must outlive this. Boundary vertices stay where they are.
+  /// `mesh` (compact) and `fidelity` must outlive this. Boundary vertices stay where they are, but
+  /// for those with a knot that slides: all its copies have one unknown, the arc.
   /// With `on_surface` vertices are put back onto the surface in every trial step.
   GlobalDescent(mesh::EditableMesh& mesh, Fidelity& fidelity, bool on_surface,
                 const parallel::Workers& workers);
@@ -29,12 +30,18 @@ class GlobalDescent {
   /// Takes over the connectivity and rebuilds the preconditioner.
   void freeze();
   /// Energy at the present positions, and its gradient (#V by 3; zero where vertices are fixed).
+  /// The first copy of a knot that slides holds the derivative by its arc in x, the others nothing.
   double evaluate(std::vector<Vec3>& gradient);
 
  private:
   void precondition(std::span<const Vec3> in, std::span<Vec3> out) const;
   bool search_line(const std::vector<Vec3>& direction, double slope, double first_step);
   void move(const std::vector<Vec3>& direction, double step);
+  void put_back();
+  // What freeze, evaluate and run do for the knots that slide.
+  void freeze_knots();
+  void knot_gradient(std::vector<Vec3>& gradient) const;
+  void limit_knot_steps(std::vector<Vec3>& direction) const;
 
   mesh::EditableMesh& mesh_;
   Fidelity& fidelity_;
@@ -49,6 +56,8 @@ class GlobalDescent {
   std::vector<Block> blocks_;
   std::vector<Index> corner_start_, corner_;  // vertex -> 3 t + k
   std::vector<char> fixed_;
+  std::vector<Index> sliding_;  // knots
+  std::vector<double> arc_origin_;
   std::vector<std::array<Vec3, 3>> corner_gradient_;
   std::vector<Vec3> gradient_, trial_gradient_, origin_;
   double energy_ = 0;

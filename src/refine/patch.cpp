@@ -46,8 +46,10 @@ int fans_around(const mesh::EditableMesh& mesh, const std::vector<Index>& triang
   return fans - (fans > 1 && first && before && !mesh.on_boundary(v));
 }
 
-// All triangles of the vertices `core`; vertices where these would meet in two fans join the core.
-std::vector<Index> triangles_of(const mesh::EditableMesh& mesh, std::vector<Index>& core) {
+// All triangles of the vertices `core`; vertices where these would meet in two fans join the core,
+// and all copies of knots.
+std::vector<Index> triangles_of(const mesh::EditableMesh& mesh, const Knots& knots,
+                                std::vector<Index>& core) {
   for (;;) {
     std::vector<Index> triangles, vertices, pinched;
     for (Index v : core) for_ring(mesh, v, [&](Index t, int) { triangles.push_back(t); });
@@ -60,20 +62,23 @@ std::vector<Index> triangles_of(const mesh::EditableMesh& mesh, std::vector<Inde
     if (pinched.empty()) return triangles;
     core.insert(core.end(), pinched.begin(), pinched.end());
     sort_unique(core);
+    knots.add_copies(mesh, core);
   }
 }
 
 }  // namespace
 
-bool edit_possible(const mesh::EditableMesh& mesh, const Edit& edit) {
+bool edit_possible(const mesh::EditableMesh& mesh, const Knots& knots, const Edit& edit) {
   const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
   if (!e.valid()) return false;
   switch (edit.kind) {
     case Edit::Kind::Flip:
-      return mesh.can_flip(e) && flip_keeps_sides(mesh, e);
+      return mesh.can_flip(e) && flip_keeps_sides(mesh, e) &&
+             knots.edge_allowed(mesh, mesh.opposite_vertex(e), mesh.opposite_vertex(mesh.twin(e)));
     case Edit::Kind::Collapse:
       return !mesh.on_boundary(edit.a) && mesh.can_collapse(e, edit.a) &&
-             collapse_keeps_sides(mesh, edit.a, edit.b);
+             collapse_keeps_sides(mesh, edit.a, edit.b) &&
+             knots.collapse_allowed(mesh, edit.a, edit.b);
     case Edit::Kind::Split:
       return mesh.twin(e).valid();
   }
@@ -115,6 +120,7 @@ Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit)
     fidelity.vertex_planes.emplace_back();
     fidelity.vertex_weights.push_back(0);
     fidelity.size.add_between(edit.a, edit.b);
+    fidelity.patches.add_beside(edit.a);
     fidelity.update_vertex(mesh, made);
   }
   for (Index t : concerned)
@@ -126,11 +132,6 @@ bool PatchScore::operator<(const PatchScore& other) const {
   return std::tie(folded, bad_valence, outside_promise, outside_goal, energy) <
          std::tie(other.folded, other.bad_valence, other.outside_promise, other.outside_goal,
                   other.energy);
-}
-
-int valence_defect(int valence, bool boundary) {
-  const int least = boundary ? 3 : 5, most = boundary ? 6 : 7;
-  return valence < least ? least - valence : valence > most ? valence - most : 0;
 }
 
 bool is_folded(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t) {
@@ -152,8 +153,13 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
              std::span<const Index> center, int rings)
     : fidelity(whole_fidelity.surface(), whole_fidelity.surface_bvh()) {
   std::vector<Index> core(center.begin(), center.end());
-  add_rings(whole, core, rings);
-  triangle = triangles_of(whole, core);
+  const Knots& knots = whole_fidelity.knots;
+  knots.add_copies(whole, core);
+  for (int ring = 0; ring < rings; ++ring) {
+    add_rings(whole, core, 1);
+    knots.add_copies(whole, core);
+  }
+  triangle = triangles_of(whole, knots, core);
   for (Index t : triangle)
     for (Index v : whole.triangle(t)) vertex.push_back(v);
   sort_unique(vertex);
@@ -188,7 +194,19 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
     hidden_.push_back(whole.valence(v) - mesh.valence(static_cast<Index>(i)));
     boundary_.push_back(whole.on_boundary(v));
     inner_.push_back(std::binary_search(core.begin(), core.end(), v));
+    if (boundary_.back())
+      fidelity.valences.set(static_cast<Index>(i), whole_fidelity.valences.range(v));
+    if (!whole_fidelity.patches.empty())
+      fidelity.patches.of_vertex.push_back(whole_fidelity.patches.of_vertex[v]);
   }
+  fidelity.patches.of_facet = whole_fidelity.patches.of_facet;
+  fidelity.knots = Knots(knots, whole, vertex, inner_, knot_);
+  if (fidelity.knots.empty()) return;
+  mesh.knot.assign(vertex.size(), -1);
+  for (std::size_t i = 0; i < vertex.size(); ++i)
+    if (const Index k = whole.knot[vertex[i]]; k >= 0)
+      mesh.knot[i] =
+          static_cast<Index>(std::lower_bound(knot_.begin(), knot_.end(), k) - knot_.begin());
 }
 
 Index Patch::local(Index v) const {
@@ -217,7 +235,7 @@ bool Patch::possible(const Edit& edit) const {
     if (!inner(mesh.opposite_vertex(e)) && !inner(mesh.opposite_vertex(o))) return false;
     if (valence(edit.a) <= 3 || valence(edit.b) <= 3) return false;
   }
-  return edit_possible(mesh, edit);
+  return edit_possible(mesh, fidelity.knots, edit);
 }
 
 void Patch::remember(const Edit& edit, Index made) {
@@ -238,7 +256,8 @@ void Patch::apply_with_samples(const Edit& edit) {
 std::vector<Index> Patch::inner_vertices() const {
   std::vector<Index> list;
   for (Index v = 0; v < mesh.vertex_capacity(); ++v)
-    if (mesh.alive_vertex(v) && inner(v) && !boundary(v)) list.push_back(v);
+    if (mesh.alive_vertex(v) && inner(v) && (!boundary(v) || fidelity.knots.sliding(mesh, v) >= 0))
+      list.push_back(v);
   return list;
 }
 
@@ -268,6 +287,9 @@ std::vector<Index> Patch::commit(mesh::EditableMesh& whole, Fidelity& whole_fide
         apply_edit(whole, whole_fidelity, {edit.kind, vertex[edit.a], vertex[edit.b]});
     if (made >= 0) vertex[next_made++] = made;
   }
+  for (std::size_t k = 0; k < knot_.size(); ++k)
+    if (fidelity.knots.all[k].slides)
+      whole_fidelity.knots.all[knot_[k]].place.arc = fidelity.knots.all[k].place.arc;
   std::vector<Index> touched;
   for (Index v = 0; v < mesh.vertex_capacity(); ++v) {
     if (!mesh.alive_vertex(v) || !inner(v)) continue;

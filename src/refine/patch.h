@@ -20,8 +20,8 @@ struct Edit {
   Index a, b;  ///< Flip, Split: the edge ab. Collapse: a disappears into b.
 };
 
-/// Whether the mesh admits the edit (topology, and for flips that no triangle turns over).
-bool edit_possible(const mesh::EditableMesh& mesh, const Edit& edit);
+/// Whether the mesh admits the edit (topology, knots, and that no triangle turns over).
+bool edit_possible(const mesh::EditableMesh& mesh, const Knots& knots, const Edit& edit);
 /// Applies it; a Split puts the new vertex at the middle and returns it (else -1).
 Index apply_edit(mesh::EditableMesh& mesh, const Edit& edit);
 /// The same, and hands the samples of the triangles that change to those that replace them.
@@ -37,12 +37,10 @@ struct PatchScore {
   [[nodiscard]] bool operator<(const PatchScore& other) const;
 };
 
-/// Distance of a valence from the good ones.
-int valence_defect(int valence, bool boundary);
-
 class Patch {
  public:
-  /// Copies the triangles that touch a vertex within `rings` rings of `center`.
+  /// Copies the triangles that touch a vertex within `rings` rings of `center`; rings go on across
+  /// curves, and of a knot all sectors are copied.
   Patch(const mesh::EditableMesh& mesh, const Fidelity& fidelity, std::span<const Index> center,
         int rings);
 
@@ -60,7 +58,7 @@ class Patch {
   [[nodiscard]] bool boundary(Index v) const { return boundary_[v]; }
   /// Whether all triangles of v are in the patch, so that it may move and edges at it be edited.
   [[nodiscard]] bool inner(Index v) const { return inner_[v]; }
-  [[nodiscard]] int defect(Index v) const { return valence_defect(valence(v), boundary(v)); }
+  [[nodiscard]] int defect(Index v) const { return fidelity.valences.defect(v, valence(v)); }
   [[nodiscard]] int total_defect() const;
   /// Edits that only touch what the patch knows entirely.
   [[nodiscard]] bool possible(const Edit& edit) const;
@@ -68,6 +66,7 @@ class Patch {
   void apply(const Edit& edit);
   /// With the samples.
   void apply_with_samples(const Edit& edit);
+  /// Vertices that may move: inner ones, those on curves only if they slide.
   [[nodiscard]] std::vector<Index> inner_vertices() const;
 
   [[nodiscard]] PatchScore score(const energy::ShapeWeights& shape, const AngleTest& promise,
@@ -81,6 +80,7 @@ class Patch {
 
   std::vector<int> hidden_;  // neighbours outside the patch
   std::vector<char> boundary_, inner_;
+  std::vector<Index> knot_;  // local -> global
 };
 
 /// Triangles of the mesh that are turned over against the surface under their vertices, or folded

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "refine/neighborhood.h"
+
 namespace nonobtuse::refine {
 namespace {
 
@@ -14,6 +16,7 @@ using Matrix = std::array<Vec3, 3>;  // columns
 constexpr double kDifference = 1e-5;
 constexpr double kLongestStep = 0.25;
 constexpr double kShortestStep = 1e-9;
+constexpr double kKnotSpacing = 0.25;  // least distance of knots along a curve, where the size is 1
 
 // Solves (H + damping) x = b by Cholesky; false if that is not positive definite.
 bool solve(const Matrix& h, double damping, const Vec3& b, Vec3& x) {
@@ -79,6 +82,41 @@ struct RingSolver {
     return {column(h[0], n.x, hn.x), column(h[1], n.y, hn.y), column(h[2], n.z, hn.z)};
   }
 
+  // Energy of all sectors of a knot with its copies at `arc`, and its derivative by the arc.
+  double knot_energy(Index knot, double arc, double* slope) const {
+    const mesh::Curve& curve = fidelity.knots.curve(knot);
+    const Vec3 p = mesh::point_at(curve, arc);
+    double sum = 0;
+    Vec3 gradient;
+    for (Index v : fidelity.knots.all[knot].copies)
+      sum += energy(v, p, slope ? &gradient : nullptr);
+    if (slope) *slope = dot(gradient, mesh::tangent_at(curve, arc));
+    return sum;
+  }
+
+  // One damped Newton step along the curve; the energy falls or the knot stays.
+  void slide(Index knot) const {
+    const SlidingKnot& own = fidelity.knots.all[knot];
+    const double arc = own.place.arc;
+    const double local = fidelity.size.at(own.copies.front());
+    double slope = 0, slope_ahead = 0;
+    const double before = knot_energy(knot, arc, &slope);
+    if (!std::isfinite(before)) return;
+    const double difference = kDifference * local;
+    knot_energy(knot, arc + difference, &slope_ahead);
+    const double curvature = (slope_ahead - slope) / difference;
+    double damping = 1e-6 * std::abs(curvature);
+    for (int attempt = 0; attempt < 10;
+         ++attempt, damping = std::max(10 * damping, 1e-3 * std::abs(curvature))) {
+      if (!(curvature + damping > 0)) continue;
+      const double step =
+          std::clamp(-slope / (curvature + damping), -kLongestStep * local, kLongestStep * local);
+      const double to = arc + fidelity.knots.limited(knot, step, kKnotSpacing * local);
+      if (!(std::abs(to - arc) > kShortestStep * local)) return;
+      if (knot_energy(knot, to, nullptr) < before) return fidelity.knots.move(mesh, knot, to);
+    }
+  }
+
   // Away from a ring with a triangle without area: to the middle of the neighbours.
   void escape(Index v) const {
     Vec3 sum;
@@ -121,8 +159,16 @@ struct RingSolver {
   }
 };
 
-// Greedy colouring, in the order given: neighbours get different colours.
-std::vector<std::vector<Index>> color_classes(const mesh::EditableMesh& mesh,
+// Calls visit(triangle) around v and all other copies of its knot.
+template <class Visit>
+void for_rings(const mesh::EditableMesh& mesh, const Knots& knots, Index v, const Visit& visit) {
+  const Index knot = knots.empty() ? -1 : mesh.knot[v];
+  if (knot < 0) return for_ring(mesh, v, [&](Index t, int) { visit(t); });
+  for (Index copy : knots.all[knot].copies) for_ring(mesh, copy, [&](Index t, int) { visit(t); });
+}
+
+// Greedy colouring, by index: neighbours get different colours; a knot's first copy stands for all.
+std::vector<std::vector<Index>> color_classes(const mesh::EditableMesh& mesh, const Knots& knots,
                                               const std::vector<Index>& vertices) {
   std::vector<std::pair<Index, int>> color;  // by vertex
   color.reserve(vertices.size());
@@ -131,8 +177,9 @@ std::vector<std::vector<Index>> color_classes(const mesh::EditableMesh& mesh,
   std::vector<std::vector<Index>> classes;
   for (auto& [v, own] : color) {
     std::uint64_t taken = 0;
-    for_ring(mesh, v, [&](Index t, int) {
-      for (Index u : mesh.triangle(t)) {
+    for_rings(mesh, knots, v, [&](Index t) {
+      for (Index corner : mesh.triangle(t)) {
+        const Index u = knots.representative(mesh, corner);
         const auto it = std::lower_bound(color.begin(), color.end(), std::pair<Index, int>{u, -2});
         if (it != color.end() && it->first == u && it->second >= 0 && it->second < 64)
           taken |= std::uint64_t{1} << it->second;
@@ -169,16 +216,28 @@ double ring_energy(const mesh::EditableMesh& mesh, const Fidelity& fidelity,
 
 void relax(mesh::EditableMesh& mesh, Fidelity& fidelity, const std::vector<Index>& vertices,
            const RelaxationOptions& options, const parallel::Workers& workers) {
-  std::vector<Index> free;
-  for (Index v : vertices)
-    if (!mesh.on_boundary(v)) free.push_back(v);
+  const Knots& knots = fidelity.knots;
+  std::vector<Index> free, slide;
+  for (Index v : vertices) {
+    const bool on_curve = !knots.empty() && mesh.knot[v] >= 0;
+    if (!on_curve && !mesh.on_boundary(v)) free.push_back(v);
+    if (knots.sliding(mesh, v) >= 0) slide.push_back(knots.representative(mesh, v));
+  }
+  sort_unique(slide);
+  free.insert(free.end(), slide.begin(), slide.end());
   const RingSolver solver{mesh, fidelity, options};
-  const auto classes = color_classes(mesh, free);
+  const auto classes = color_classes(mesh, knots, free);
   for (int pass = 0; pass < options.passes; ++pass)
     for (const std::vector<Index>& of_one_color : classes)
       workers.for_each(of_one_color.size(), 16, [&](std::size_t i) {
-        solver.step(of_one_color[i]);
-        fidelity.update_vertex(mesh, of_one_color[i]);
+        const Index v = of_one_color[i];
+        if (const Index knot = knots.sliding(mesh, v); knot >= 0) {
+          solver.slide(knot);
+          for (Index copy : knots.all[knot].copies) fidelity.update_vertex(mesh, copy);
+          return;
+        }
+        solver.step(v);
+        fidelity.update_vertex(mesh, v);
       });
 }
 

@@ -22,8 +22,9 @@ struct RelaxationOptions {
 double ring_energy(const mesh::EditableMesh& mesh, const Fidelity& fidelity,
                    const energy::ShapeWeights& shape, Index v, const Vec3& p, Vec3* gradient);
 
-/// Relaxes the given vertices (fixed where on the boundary). The energy never rises. Same bytes for
-/// any number of threads. Feet of the vertices are updated, samples are not.
+/// Relaxes the given vertices (fixed where on the boundary); of a knot that slides all copies, if
+/// one is given, along its curve. The energy never rises. Same bytes for any number of threads.
+/// Feet of the vertices are updated, samples are not.
 void relax(mesh::EditableMesh& mesh, Fidelity& fidelity, const std::vector<Index>& vertices,
            const RelaxationOptions& options, const parallel::Workers& workers);
 

@@ -96,7 +96,8 @@ Index separate_sheets(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialO
       fidelity.vertex_planes[v].push_out(kPush * fidelity.size.at(v), kEmphasis);
       fidelity.update_vertex(mesh, v);
     }
-    const std::vector<Index> active = dilated(mesh, places, 2);
+    std::vector<Index> active = dilated(mesh, places, 2);
+    fidelity.knots.add_copies(mesh, active);
     relax(mesh, fidelity, active, {options.shape, 6, options.on_surface}, workers);
     fidelity.rewalk(mesh, triangles_around(mesh, active));
     pairs = crossing_triangles(mesh, workers);

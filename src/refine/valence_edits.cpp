@@ -17,7 +17,7 @@ double irregularity(const Patch& patch) {
   double sum = 0;
   for (Index v = 0; v < patch.mesh.vertex_capacity(); ++v) {
     if (!patch.mesh.alive_vertex(v)) continue;
-    const double d = patch.valence(v) - (patch.boundary(v) ? 4 : 6);
+    const double d = patch.valence(v) - patch.fidelity.valences.range(v).best;
     sum += d * d;
   }
   return sum;
@@ -26,7 +26,7 @@ double irregularity(const Patch& patch) {
 // Flips that raise the valence of v (edges opposite v) or lower it (edges at v).
 std::vector<Edit> flips_for(const Patch& patch, Index v) {
   std::vector<Edit> edits;
-  const bool raise = patch.valence(v) < (patch.boundary(v) ? 3 : 5);
+  const bool raise = patch.valence(v) < patch.fidelity.valences.range(v).least;
   for_ring(patch.mesh, v, [&](Index t, int k) {
     const Triangle& c = patch.mesh.triangle(t);
     const Index a = c[mesh::next(k)], b = c[mesh::previous(k)];
@@ -35,30 +35,54 @@ std::vector<Edit> flips_for(const Patch& patch, Index v) {
   return edits;
 }
 
+// Splits of the edges opposite a boundary vertex that has too few neighbours: along a crease flips
+// alone only pass the defect on to the next vertex.
+std::vector<Edit> splits_for(const Patch& patch, Index v) {
+  std::vector<Edit> edits;
+  if (!patch.boundary(v) || patch.valence(v) >= patch.fidelity.valences.range(v).least)
+    return edits;
+  for_ring(patch.mesh, v, [&](Index t, int k) {
+    const Triangle& c = patch.mesh.triangle(t);
+    edits.push_back({Edit::Kind::Split, c[mesh::next(k)], c[mesh::previous(k)]});
+  });
+  return edits;
+}
+
 class Search {
  public:
   Search(int target, int solutions) : target_(target), limit_(solutions) {}
 
-  // Tries all sequences of at most `flips` flips; keeps those that bring the defect to the target.
-  void descend(const Patch& patch, int flips) {
+  /// Leaves the patch's other defects alone while there are new ones or that of v.
+  void focus_on(const Patch& patch, Index v) {
+    for (Index u = 0; u < patch.mesh.vertex_capacity(); ++u)
+      known_.push_back(u == v || !patch.mesh.alive_vertex(u) ? 0 : patch.defect(u));
+  }
+
+  // Tries all sequences of at most `flips` flips and `splits` splits; keeps those that bring the
+  // defect to the target.
+  void descend(const Patch& patch, int flips, int splits = 0) {
     const int defect = patch.total_defect();
     if (defect <= target_) {
       found_.push_back(
           {irregularity(patch) + 0.1 * static_cast<double>(patch.edits.size()), patch.edits});
       return;
     }
-    // Every flip mends at most four units.
-    if (flips == 0 || defect > target_ + 4 * flips || visited_++ > 4000) return;
-    for (Index v = 0; v < patch.mesh.vertex_capacity(); ++v) {
-      if (!patch.mesh.alive_vertex(v) || patch.defect(v) == 0 || !patch.inner(v)) continue;
-      for (const Edit& edit : flips_for(patch, v)) {
-        if (!patch.possible(edit)) continue;
-        Patch next = patch;
-        next.apply(edit);
-        if (next.total_defect() <= defect + 1) descend(next, flips - 1);
-      }
-      return;  // one defect at a time: the others have their turn deeper down
-    }
+    // Every flip mends at most four units, a split one.
+    if (flips + splits == 0 || defect > target_ + 4 * flips + splits || visited_++ > 4000) return;
+    // One defect at a time: the others have their turn deeper down.
+    Index v = known_.empty() ? -1 : first_defect(patch, true);
+    if (v < 0) v = first_defect(patch, false);
+    if (v < 0) return;
+    const auto attempt = [&](const Edit& edit, int flips_left, int splits_left) {
+      if (!patch.possible(edit)) return;
+      Patch next = patch;
+      next.apply(edit);
+      if (next.total_defect() <= defect + 1) descend(next, flips_left, splits_left);
+    };
+    if (flips > 0)
+      for (const Edit& edit : flips_for(patch, v)) attempt(edit, flips - 1, splits);
+    if (splits > 0)
+      for (const Edit& edit : splits_for(patch, v)) attempt(edit, flips, splits - 1);
   }
 
   std::vector<std::vector<Edit>> best() {
@@ -76,13 +100,43 @@ class Search {
   [[nodiscard]] bool empty() const { return found_.empty(); }
 
  private:
+  // The first vertex with a defect (with `only_new` one beyond the known), -1 if there is none.
+  [[nodiscard]] Index first_defect(const Patch& patch, bool only_new) const {
+    for (Index v = 0; v < patch.mesh.vertex_capacity(); ++v) {
+      if (!patch.mesh.alive_vertex(v) || !patch.inner(v)) continue;
+      const int known = only_new && v < static_cast<Index>(known_.size()) ? known_[v] : 0;
+      if (patch.defect(v) > known) return v;
+    }
+    return -1;
+  }
+
   int target_, limit_;
   int visited_ = 0;
+  std::vector<int> known_;  // defects by vertex
   std::vector<Solution> found_;
 };
 
+// First edits that change the number of vertices around a boundary vertex v: a neighbour less, or
+// one more between it and the edge opposite.
+std::vector<Edit> boundary_count_edits(const Patch& patch, Index v, int net) {
+  std::vector<Edit> edits;
+  for_ring(patch.mesh, v, [&](Index t, int k) {
+    const Triangle& c = patch.mesh.triangle(t);
+    const Index a = c[mesh::next(k)], b = c[mesh::previous(k)];
+    if (net > 0) {
+      edits.push_back({Edit::Kind::Split, a, b});
+    } else {
+      edits.push_back({Edit::Kind::Collapse, a, b});
+      edits.push_back({Edit::Kind::Collapse, b, a});
+      edits.push_back({Edit::Kind::Collapse, a, v});
+    }
+  });
+  return edits;
+}
+
 // First edits that change the number of vertices at v.
 std::vector<Edit> count_edits(const Patch& patch, Index v, int net) {
+  if (patch.boundary(v)) return boundary_count_edits(patch, v, net);
   std::vector<Index> neighbors;
   patch.mesh.neighbors(v, neighbors);
   std::vector<Edit> edits;
@@ -97,9 +151,10 @@ std::vector<std::vector<Edit>> search_valence_edits(const Patch& patch, Index ba
                                                     const ValenceSearch& search) {
   const int defect = patch.total_defect();
   Search found(defect - 1, search.solutions);
+  if (search.splits > 0) found.focus_on(patch, bad_vertex);
   if (search.net == 0) {
     for (int flips = 1; flips <= search.flips && found.empty(); ++flips)
-      found.descend(patch, flips);
+      found.descend(patch, flips, std::min(flips, search.splits));
     return found.best();
   }
   for (const Edit& edit : count_edits(patch, bad_vertex, search.net)) {

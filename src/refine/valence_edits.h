@@ -12,6 +12,8 @@ struct ValenceSearch {
   int flips = 3;       ///< longest sequence of flips tried
   int solutions = 12;  ///< sequences kept at most
   int net = 0;         ///< change of the number of vertices: 0, -1 (collapse) or +1 (split)
+  int splits = 0;  ///< with net = 0: edges opposite a boundary vertex of low valence that may be
+                   ///< split, each a vertex more
 };
 
 /// Sequences of edits on `patch` that lower its total defect, the most regular first.

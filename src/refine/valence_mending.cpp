@@ -36,17 +36,25 @@ class Mender {
   }
 
   bool by_pair(Index v, const Effort& effort) {
-    const int net = mesh_.valence(v) < 6 ? -1 : 1;
+    const bool low = mesh_.valence(v) < fidelity_.valences.range(v).best;
+    // A vertex of low valence disappears; on a boundary, which stays, its neighbourhood grows.
+    const bool grow = low && mesh_.on_boundary(v);
+    const int net = grow ? 0 : low != mesh_.on_boundary(v) ? -1 : 1;
     const mesh::EditableMesh mesh_before = mesh_;
     const Fidelity fidelity_before = fidelity_;
     const Patch patch = patch_around(v, effort.rings);
-    const auto sequences = search_valence_edits(patch, patch.local(v), {effort.flips, 12, net});
-    if (commit_best(patch, sequences)) {
-      if (balance_count(mesh_, fidelity_, -net, options_, workers_)) return true;
+    const auto sequences = search_valence_edits(patch, patch.local(v),
+                                                {grow ? 4 : effort.flips, 12, net, grow ? 2 : 0});
+    const Index count = mesh_.vertex_count();
+    if (!commit_best(patch, sequences)) return false;
+    while (mesh_.vertex_count() != count) {
+      const int back = mesh_.vertex_count() < count ? 1 : -1;
+      if (balance_count(mesh_, fidelity_, back, options_, workers_)) continue;
       mesh_ = mesh_before;
       fidelity_ = fidelity_before;
+      return false;
     }
-    return false;
+    return true;
   }
 
  private:
@@ -104,16 +112,16 @@ std::vector<Index> places(const mesh::EditableMesh& mesh, const Fidelity& fideli
 
 }  // namespace
 
-std::vector<Index> bad_valences(const mesh::EditableMesh& mesh) {
+std::vector<Index> bad_valences(const mesh::EditableMesh& mesh, const ValenceRule& rule) {
   std::vector<Index> bad;
   for (Index v = 0; v < mesh.vertex_capacity(); ++v)
-    if (mesh.alive_vertex(v) && !good_valence(mesh.valence(v), mesh.on_boundary(v)))
-      bad.push_back(v);
+    if (mesh.alive_vertex(v) && !rule.good(v, mesh.valence(v))) bad.push_back(v);
   return bad;
 }
 
 void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index center, int rings) {
   std::vector<Index> reached{center};
+  fidelity.knots.add_copies(mesh, reached);
   for (int ring = 0; ring <= rings; ++ring) {
     std::vector<Index> more;
     for (Index v : reached) {
@@ -125,6 +133,7 @@ void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index cen
     }
     std::sort(more.begin(), more.end());
     more.erase(std::unique(more.begin(), more.end()), more.end());
+    fidelity.knots.add_copies(mesh, more);
     reached.swap(more);
   }
   for (Index v : reached)
@@ -159,19 +168,20 @@ Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
   const std::array<Effort, 3> efforts{Effort{3, 2}, Effort{3, 4}, Effort{4, 5}};
   Index dear = kDearAttempts + mesh.vertex_count() / kVerticesPerAttempt;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<Index> bad = bad_valences(mesh);
+    const std::vector<Index> bad = bad_valences(mesh, fidelity.valences);
     if (bad.empty()) return 0;
     const Effort effort = efforts[std::min(pass, 2)];
     if (pass >= kPasses - 2) mender.be_bold();
     for (Index v : bad) {
-      if (!keep_going()) return static_cast<Index>(bad_valences(mesh).size());
-      if (!mesh.alive_vertex(v) || good_valence(mesh.valence(v), mesh.on_boundary(v))) continue;
-      if (pass >= 1 && dear-- <= 0) return static_cast<Index>(bad_valences(mesh).size());
+      if (!keep_going()) return static_cast<Index>(bad_valences(mesh, fidelity.valences).size());
+      if (!mesh.alive_vertex(v) || fidelity.valences.good(v, mesh.valence(v))) continue;
+      if (pass >= 1 && dear-- <= 0)
+        return static_cast<Index>(bad_valences(mesh, fidelity.valences).size());
       if (mender.by_flips(v, effort)) continue;
-      if (pass >= 2 && !mesh.on_boundary(v)) mender.by_pair(v, {4, 2});
+      if (pass >= 2) mender.by_pair(v, {4, 2});
     }
   }
-  return static_cast<Index>(bad_valences(mesh).size());
+  return static_cast<Index>(bad_valences(mesh, fidelity.valences).size());
 }
 
 }  // namespace nonobtuse::refine

@@ -1,5 +1,6 @@
-// Valences outside [5, 7] one by one: flips, flip sequences, and pairs of edits that keep the
-// number of vertices (collapse a vertex of low valence here, split an edge there, or the reverse).
+// Bad valences (see ValenceRule) one by one: flips, flip sequences, and pairs of edits that keep
+// the number of vertices (collapse a vertex of low valence here, split an edge there, or the
+// reverse).
 #pragma once
 
 #include <functional>
@@ -22,7 +23,7 @@ bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
                    const TrialOptions& options, const parallel::Workers& workers);
 
 /// Vertices with a bad valence.
-std::vector<Index> bad_valences(const mesh::EditableMesh& mesh);
+std::vector<Index> bad_valences(const mesh::EditableMesh& mesh, const ValenceRule& rule);
 
 /// Searches the planes around `center` that have no facet yet.
 void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index center, int rings);

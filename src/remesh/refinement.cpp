@@ -37,8 +37,9 @@ class Refinement {
  public:
   Refinement(const mesh::Surface& surface, mesh::EditableMesh& mesh,
              const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor)
+             parallel::Monitor& monitor, const mesh::CurveNetwork* curves)
       : mesh_(mesh),
+
         options_(options),
         workers_(workers),
         monitor_(monitor),
@@ -48,10 +49,14 @@ class Refinement {
     fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
     if (!surface.size.empty()) fidelity_.size.measure(mesh);
+    fidelity_.attach_curves(mesh, curves, workers);
     fidelity_.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
     fidelity_.search_samples(mesh, workers);
     fidelity_.update_planes(mesh, workers);
   }
+
+  /// Where the knots are now.
+  void store_knots(mesh::CurveNetwork& curves) const { fidelity_.knots.store(curves); }
 
   Index run() {
     const double lo = options_.min_angle, hi = options_.max_angle;
@@ -150,7 +155,7 @@ class Refinement {
 
 Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
              const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor) {
+             parallel::Monitor& monitor, mesh::CurveNetwork* curves) {
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
@@ -158,7 +163,9 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
     const refine::AngleTest test({options.min_angle, options.max_angle});
     return static_cast<Index>(refine::triangles_outside(mesh, test).size());
   }
-  const Index outside = Refinement(surface, mesh, options, workers, monitor).run();
+  Refinement refinement(surface, mesh, options, workers, monitor, curves);
+  const Index outside = refinement.run();
+  if (curves) refinement.store_knots(*curves);
   mesh.compact();
   return outside;
 }

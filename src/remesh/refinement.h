@@ -2,6 +2,7 @@
 // together, then local sweeps on the last bad triangles.
 #pragma once
 
+#include "mesh/curve_network.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
@@ -17,11 +18,13 @@ struct RefinementOptions {
 
 /// Moves vertices, flips edges and, where nothing else helps, collapses one edge and splits
 /// another, until every angle is inside the bounds or nothing helps any more. Keeps the number of
-/// vertices and the topology; boundary vertices stay where they are. Working coordinates
-/// (area / #V = 1). Returns the number of triangles left outside. After a cancellation the mesh is
-/// valid, only not finished.
+/// vertices and the topology; boundary vertices stay where they are. With `curves` those that have
+/// a knot (surface and mesh are cut along the curves, see EditableMesh::knot) slide along their
+/// curve if they may, all copies of a knot together; their arcs are updated there. Working
+/// coordinates (area / #V = 1). Returns the number of triangles left outside. After a cancellation
+/// the mesh is valid, only not finished.
 Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
              const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor);
+             parallel::Monitor& monitor, mesh::CurveNetwork* curves = nullptr);
 
 }  // namespace nonobtuse::pipeline

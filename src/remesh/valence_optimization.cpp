@@ -14,13 +14,17 @@ constexpr Index kSamplesPerVertex = 3;
 }  // namespace
 
 Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-                       const parallel::Workers& workers, parallel::Monitor& monitor) {
-  const auto initial = static_cast<double>(refine::bad_valences(mesh).size());
+                       const parallel::Workers& workers, parallel::Monitor& monitor,
+                       mesh::CurveNetwork* curves) {
+  refine::ValenceRule rule;
+  rule.measure(mesh);
+  const auto initial = static_cast<double>(refine::bad_valences(mesh, rule).size());
   if (initial == 0) return 0;
   const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
   // Few samples are enough to hold tips and ridges. Planes are searched where edits happen.
   refine::Fidelity fidelity(surface, bvh);
   if (!surface.size.empty()) fidelity.size.measure(mesh);
+  fidelity.attach_curves(mesh, curves, workers);
   fidelity.samples = refine::sample_surface(surface, kSamplesPerVertex * mesh.vertex_count());
   fidelity.search_samples(mesh, workers);
   fidelity.vertex_planes.resize(mesh.vertex_capacity());
@@ -35,6 +39,7 @@ Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
     attempts += 1;
     return monitor.tick(attempts / (attempts + initial), refine::count_obtuse(mesh));
   });
+  if (curves) fidelity.knots.store(*curves);
   mesh.compact();
   return left;
 }

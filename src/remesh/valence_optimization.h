@@ -2,6 +2,7 @@
 // the number of vertices (Yan & Wonka 2016, section 4.2, with flips in place of resampling).
 #pragma once
 
+#include "mesh/curve_network.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
@@ -9,10 +10,12 @@
 
 namespace nonobtuse::pipeline {
 
-/// Brings every interior vertex to valence 5, 6 or 7 by edits that keep the number of vertices and
-/// the topology, as far as it can. Working coordinates (area / #V = 1). Returns the number of bad
-/// valences left. After a cancellation the mesh is valid, only not finished.
+/// Brings every interior vertex to valence 5, 6 or 7, and boundary vertices to what the angle of
+/// their sector asks for, by edits that keep the number of vertices and the topology, as far as it
+/// can. With `curves` knots slide as in `refine`. Working coordinates (area / #V = 1). Returns the
+/// number of bad valences left. After a cancellation the mesh is valid, only not finished.
 Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-                       const parallel::Workers& workers, parallel::Monitor& monitor);
+                       const parallel::Workers& workers, parallel::Monitor& monitor,
+                       mesh::CurveNetwork* curves = nullptr);
 
 }  // namespace nonobtuse::pipeline
