@@ -93,8 +93,13 @@ class ObjReader {
     scanner_.skip_blanks();
     std::string text;
     while (!scanner_.at_line_end()) {
-      if (!text.empty()) text += ' ';
-      text += scanner_.rest_of_word();
+      const std::string_view word = scanner_.rest_of_word();
+      if (word.empty()) {  // a control character
+        scanner_.set_position(scanner_.position() + 1);
+      } else {
+        if (!text.empty()) text += ' ';
+        text += word;
+      }
       scanner_.skip_blanks();
     }
     return text;
