@@ -132,6 +132,36 @@ void set_sizing(const std::string& text, RemeshCommand& command) {
   if (!(options.gradation > 0)) throw UsageError("--gradation must be positive");
 }
 
+// Likewise: ./auto is a file.
+void set_features(const std::string& text, RemeshCommand& command) {
+  RemeshOptions& options = command.options;
+  char* end = nullptr;
+  const double degrees = std::strtod(text.c_str(), &end);
+  if (text == "auto") {
+    options.features = Features::Auto;
+  } else if (text == "none") {
+    options.features = Features::None;
+  } else if (!text.empty() && *end == '\0') {
+    if (!(degrees > 0 && degrees <= 180))
+      throw UsageError(fmt::format("--features must be an angle in (0, 180], not '{}'", text));
+    options.features = Features::Dihedral;
+    options.feature_angle = degrees;
+  } else {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(text, error))
+      throw UsageError(fmt::format(
+          "--features must be auto, none, an angle in degrees or a file of edges, not '{}'", text));
+    options.features = Features::Given;
+    command.feature_edges = text;
+  }
+}
+
+Boundary parse_boundary(const std::string& text) {
+  if (text == "resample") return Boundary::Resample;
+  if (text == "freeze") return Boundary::Freeze;
+  throw UsageError(fmt::format("--boundary must be resample or freeze, not '{}'", text));
+}
+
 void add_output(CLI::App& command, OutputOptions& output) {
   command.add_option("-o,--output", output.path, "File to write: .obj, .off, .ply or .stl")
       ->required()
@@ -153,6 +183,8 @@ struct Draft {
   std::optional<std::string> max_error;
   std::string method = "default";
   std::string sizing = "uniform";
+  std::string features = "auto";
+  std::string boundary = "resample";
   MeasureCommand measure;
   CertifyCommand certify;
   ConvertCommand convert;
@@ -195,6 +227,21 @@ void add_remesh(CLI::App& app, Draft& draft) {
       ->type_name("E");
   command
       .add_option(
+          "--features", draft.features,
+          "Edges of the input that stay edges: auto: sharp creases, none on smooth surfaces; "
+          "none; DEG: all edges at which the surface turns by so many degrees; or a file "
+          "with two vertex numbers (from 0) per edge, one edge a line. Boundaries always do")
+      ->type_name("auto|none|DEG|FILE")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--boundary", draft.boundary,
+          "Boundary vertices: resample: along the boundary curve, its corners kept; freeze: "
+          "exactly those of the input")
+      ->type_name("resample|freeze")
+      ->capture_default_str();
+  command
+      .add_option(
           "--method", draft.method,
           "default: CVT, then refinement on the mesh; the methods of Yan & Wonka 2016: cvt: "
           "CVT alone; cvt-fs: then with the feature-sensitive energy; cvt-nob: with the "
@@ -223,6 +270,8 @@ void add_remesh(CLI::App& app, Draft& draft) {
   command.add_option("--max-angle", c.options.max_angle, "Every angle below this, degrees")
       ->type_name("DEG")
       ->capture_default_str();
+  command.add_flag("--keep-seams", c.keep_seams,
+                   "Keep the seams of a texture and the borders between face labels as edges");
   command.add_flag("--on-surface", c.options.on_surface,
                    "Keep every vertex on the input, instead of at the offset that minimises the "
                    "distance");
@@ -327,6 +376,10 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
     if (draft.max_error) set_max_error(*draft.max_error, options);
     options.method = parse_method(draft.method);
     set_sizing(draft.sizing, draft.remesh);
+    set_features(draft.features, draft.remesh);
+    if (draft.remesh.keep_seams && options.features == Features::None)
+      throw UsageError("--keep-seams makes features of seams; --features none forbids any");
+    options.boundary = parse_boundary(draft.boundary);
     if (options.iterations > 0 && options.method == Method::Default)
       throw UsageError("--iterations is for the methods cvt, cvt-fs and cvt-nob only");
     if (options.history && !draft.remesh.json)

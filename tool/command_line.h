@@ -20,7 +20,9 @@ struct RemeshCommand {
   std::string input;
   OutputOptions output;
   RemeshOptions options;
-  std::string sizes;  ///< file of target edge lengths, with Sizing::Given
+  std::string sizes;          ///< file of target edge lengths, with Sizing::Given
+  bool keep_seams = false;  ///< borders of labels and seams of textures are features
+  std::string feature_edges;  ///< file of pairs of vertices, with Features::Given
   int threads = 0;
   bool quiet = false;        ///< print nothing but errors
   bool progress = false;     ///< report progress even if stderr is no terminal

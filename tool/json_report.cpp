@@ -35,6 +35,20 @@ const char* name_of(Method method) {
   return "";
 }
 
+const char* name_of(Features features) {
+  switch (features) {
+    case Features::Auto:
+      return "auto";
+    case Features::None:
+      return "none";
+    case Features::Dihedral:
+      return "dihedral";
+    case Features::Given:
+      return "given";
+  }
+  return "";
+}
+
 const char* name_of(Sizing sizing) {
   switch (sizing) {
     case Sizing::Uniform:
@@ -144,6 +158,9 @@ Json to_json(const RemeshOptions& options) {
           {"relative_edge_length", options.relative_edge_length},
           {"method", name_of(options.method)},
           {"sizing", name_of(options.sizing)},
+          {"features", name_of(options.features)},
+          {"feature_angle", options.feature_angle},
+          {"boundary", options.boundary == Boundary::Freeze ? "freeze" : "resample"},
           {"gradation", options.gradation},
           {"max_error", options.max_error},
           {"relative_max_error", options.relative_max_error},

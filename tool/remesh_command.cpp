@@ -1,6 +1,7 @@
 // Read, clean, remesh, certify what will be in the file, write, report.
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -62,7 +63,29 @@ std::vector<double> read_lengths(const std::string& path) {
   return lengths;
 }
 
+// Two vertex numbers, counted from 0, for each edge, separated by white space.
+std::vector<std::array<Index, 2>> read_edges(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw IoError(path + ": cannot be opened.");
+  std::vector<Index> numbers;
+  std::string word;
+  while (file >> word) {
+    char* end = nullptr;
+    const long value = std::strtol(word.c_str(), &end, 10);
+    if (*end != '\0' || value < 0 || value > 2147483647)
+      throw IoError(
+          fmt::format("{}: entry {}: '{}' is no vertex number.", path, numbers.size() + 1, word));
+    numbers.push_back(static_cast<Index>(value));
+  }
+  if (numbers.size() % 2 != 0)
+    throw IoError(path + ": the last edge has one vertex only; two numbers make an edge.");
+  std::vector<std::array<Index, 2>> edges;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) edges.push_back({numbers[i], numbers[i + 1]});
+  return edges;
+}
+
 RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMesh& input,
+                                  const MeshAttributes& attributes,
                                   const std::atomic<bool>& interrupted) {
   ProgressBar bar(progress_style(command.progress, command.quiet));
   Context context;
@@ -72,9 +95,12 @@ RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMe
     bar.show(progress);
     return true;
   };
-  if (command.sizes.empty()) return remesh(input, command.options, context);
   RemeshOptions options = command.options;
-  options.target_lengths = read_lengths(command.sizes);
+  if (!command.sizes.empty()) options.target_lengths = read_lengths(command.sizes);
+  if (!command.feature_edges.empty()) options.feature_edges = read_edges(command.feature_edges);
+  if (command.keep_seams)
+    for (const auto& edge : attribute_borders(input, attributes))
+      options.feature_edges.push_back(edge);
   return remesh(input, options, context);
 }
 
@@ -145,7 +171,7 @@ int run(const RemeshCommand& command) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Outcome outcome;
   read_clean(command.input, outcome);
-  outcome.result = remesh_with_progress(command, outcome.input, interrupted);
+  outcome.result = remesh_with_progress(command, outcome.input, outcome.attributes, interrupted);
   if (outcome.result.mesh.triangles.empty()) {
     fmt::print(stderr, "nonobtuse: cancelled before there was a mesh; nothing was written.\n");
     return kCancelled;

@@ -34,8 +34,8 @@ struct MeshAttributes {
 };
 
 /// The edges between faces of different labels and the seams of the texture, each as two vertices
-/// in ascending order, sorted. Boundary edges are not among them. Handed to a remeshing call as
-/// features, they stay edges of the result.
+/// in ascending order, sorted. Boundary edges are not among them. As RemeshOptions::feature_edges
+/// they stay edges of the result.
 /// Throws InvalidInput if an array is neither empty nor complete, or an index is out of range.
 std::vector<std::array<Index, 2>> attribute_borders(const TriangleMesh& mesh,
                                                     const MeshAttributes& attributes);

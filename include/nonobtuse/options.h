@@ -1,6 +1,7 @@
 // Part of nonobtuse, MIT licence. Every option of a remeshing call with its default.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,20 @@ enum class Sizing {
   Given,             ///< `target_lengths`
 };
 
+/// Which edges of the input are features, to be edges of the result. Boundaries always are.
+enum class Features {
+  Auto,      ///< creases found by dihedral angle; a smooth surface, coarse or noisy, has none
+  None,      ///< no creases
+  Dihedral,  ///< edges at which the normal turns by `feature_angle` or more
+  Given,     ///< `feature_edges` alone
+};
+
+/// What becomes of the vertices on the boundary of an open surface.
+enum class Boundary {
+  Resample,  ///< they move along the boundary curve; its corners stay
+  Freeze,    ///< all vertices of the input's boundary stay, bit for bit, and no others come
+};
+
 struct RemeshOptions {
   /// Number of output vertices, exactly, at most 1e8; 0 = as many as the input has (unless
   /// edge_length is set).
@@ -34,6 +49,14 @@ struct RemeshOptions {
   /// The same relative to the diagonal of the input's bounding box; 0 = unset.
   double relative_edge_length = 0;
   Method method = Method::Default;
+  /// Creases, `Method::Default` only.
+  Features features = Features::Auto;
+  /// Features::Dihedral: in degrees, 0 < feature_angle <= 180.
+  double feature_angle = 40;
+  /// Pairs of input vertices that an edge joins, in addition to the creases that Features::Auto and
+  /// Features::Dihedral find (`attribute_borders` gives those of a texture and labels).
+  std::vector<std::array<Index, 2>> feature_edges = {};
+  Boundary boundary = Boundary::Resample;
   Sizing sizing = Sizing::Uniform;
   /// Sizing::Given: the target edge length at every input vertex (#V, positive, input units).
   /// Scaled to the number of vertices asked for; if none is, they themselves say how many.

@@ -1,6 +1,7 @@
 // Part of nonobtuse, MIT licence. What a remeshing call gives back.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace nonobtuse {
 
 enum class Status {
-  Converged,     ///< every angle is inside the bounds asked for, certified exactly
+  Converged,     ///< every angle is inside the bounds asked for, certified exactly, but for
+                 ///< triangles at `narrow_corners` (none on most surfaces)
   AnglesRemain,  ///< the mesh is valid, but the certificate lists triangles outside the bounds
   Cancelled,     ///< stopped on request; the mesh is the best valid one so far
 };
@@ -40,6 +42,14 @@ struct SizeRatio {
   double percentile_95 = 0;
 };
 
+/// A corner of the input at which two feature edges bound a face under less than 30 degrees: some
+/// angle of the result there is as small, whatever is done.
+struct NarrowCorner {
+  Index vertex = -1;         ///< of the result; it is where the input's corner is
+  double input_angle = 0;    ///< between the feature edges, on the face, degrees
+  double reached_angle = 0;  ///< the least angle of the result at this vertex, degrees
+};
+
 struct RemeshResult {
   TriangleMesh mesh;  ///< exactly the vertices asked for (unless there is a max_error); topology of
                       ///< the input
@@ -51,8 +61,12 @@ struct RemeshResult {
   double max_error = 0;  ///< with RemeshOptions::max_error: the distance measured, at most that
   std::vector<Index> source_triangle;  ///< #V: triangle of the (cleaned) input nearest to a vertex
   std::vector<Vec3> barycentric;       ///< #V by 3: the nearest point's coordinates in it
-  std::vector<StageTime> stages;       ///< in the order they ran; a stage may occur once
-  std::vector<IterationRecord> history;  ///< with RemeshOptions::history, in order; else empty
+  /// Edges of the result that make up the creases and boundaries of the input (pairs of vertices,
+  /// the lower first, sorted).
+  std::vector<std::array<Index, 2>> feature_edges;
+  std::vector<NarrowCorner> narrow_corners;  ///< see there; triangles at them may miss the bounds
+  std::vector<StageTime> stages;             ///< in the order they ran; a stage may occur once
+  std::vector<IterationRecord> history;      ///< with RemeshOptions::history, in order; else empty
 };
 
 }  // namespace nonobtuse

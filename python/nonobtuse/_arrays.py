@@ -53,6 +53,20 @@ def faces(given: ArrayLike) -> NDArray[np.int32]:
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
+def edges(given: ArrayLike | None, name: str) -> NDArray[np.int32]:
+    """(n, 2) int32, contiguous; empty for None."""
+    array = np.asarray(np.empty((0, 2), np.int32) if given is None else given)
+    if array.size == 0:
+        array = np.empty((0, 2), np.int32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be vertex indices; their dtype is {array.dtype}.")
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise InvalidInput(f"{name} must have the shape (n, 2), not {array.shape}.")
+    if array.size > 0 and not (0 <= array.min() and array.max() <= _MOST):
+        raise InvalidInput(f"{name} has an index that no vertex has.")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
 def lengths(given: ArrayLike | None, name: str) -> NDArray[np.float64]:
     """(n,) float64, contiguous; empty for None."""
     array = np.asarray([] if given is None else given)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _METHODS = ("default", "cvt", "cvt-fs", "cvt-nob")
 _SIZINGS = ("uniform", "lfs", "curvature", "given")
+_FEATURES = ("auto", "none", "dihedral", "given")
+_BOUNDARIES = ("resample", "freeze")
 _NAMED = 5  # triangles that a report names
 
 
@@ -38,6 +40,10 @@ def remesh(
     gradation: float = 0.25,
     max_error: float | str | None = None,
     relative_max_error: float | None = None,
+    features: Literal["auto", "none", "dihedral", "given"] | None = None,
+    feature_angle: float = 40,
+    feature_edges: ArrayLike | None = None,
+    boundary: Literal["resample", "freeze"] = "resample",
     min_angle: float = 40,
     max_angle: float = 80,
     on_surface: bool = False,
@@ -67,6 +73,13 @@ def remesh(
     max_error: bound on the measured two-sided distance to the input, in input units or like "0.2%"
         of the diagonal of the bounding box (relative_max_error: as a fraction). Vertices are added
         until it holds; `vertices` is then where to start. ``report["max_error"]`` is the distance.
+    features: which edges of the input stay edges, besides its boundary: "auto", sharp creases, of
+        which smooth surfaces have none; "none"; "dihedral", edges at which the surface turns by
+        feature_angle degrees or more; "given", feature_edges (n, 2), pairs of vertices of V,
+        alone (with "auto" and "dihedral" in addition). By default "given" if there are
+        feature_edges and else "auto".
+    boundary: "resample" moves boundary vertices along the boundary curve, "freeze" keeps exactly
+        those of the input.
     min_angle, max_angle: bounds to reach, degrees. The promise is [30, 90).
     on_surface: keep vertices on the input, not at the offset that minimises the distance.
     penalty: weight of the short-dual penalty of "cvt-nob".
@@ -100,6 +113,10 @@ def remesh(
         gradation=gradation,
         max_error=max_error,
         relative_max_error=relative_max_error,
+        features=features or ("auto" if feature_edges is None else "given"),
+        feature_angle=feature_angle,
+        feature_edges=feature_edges,
+        boundary=boundary,
         min_angle=min_angle,
         max_angle=max_angle,
         on_surface=on_surface,
@@ -144,6 +161,9 @@ def _options(
         raise InvalidInput(f"method must be one of {', '.join(_METHODS)}, not {method!r}.")
     if sizing not in _SIZINGS:
         raise InvalidInput(f"sizing must be one of {', '.join(_SIZINGS)}, not {sizing!r}.")
+    for name, choices in (("features", _FEATURES), ("boundary", _BOUNDARIES)):
+        if others[name] not in choices:
+            raise InvalidInput(f"{name} must be one of {', '.join(choices)}, not {others[name]!r}.")
     return {
         "vertices": 0 if vertices is None else _arrays.whole_number(vertices, "vertices"),
         **lengths,
@@ -151,6 +171,10 @@ def _options(
         "sizing": sizing,
         "target_lengths": _arrays.lengths(others["target_lengths"], "target_lengths"),
         "gradation": _arrays.number(others["gradation"], "gradation"),
+        "features": others["features"],
+        "feature_angle": _arrays.number(others["feature_angle"], "feature_angle"),
+        "feature_edges": _arrays.edges(others["feature_edges"], "feature_edges"),
+        "boundary": others["boundary"],
         "min_angle": _arrays.number(others["min_angle"], "min_angle"),
         "max_angle": _arrays.number(others["max_angle"], "max_angle"),
         "on_surface": bool(others["on_surface"]),
@@ -183,7 +207,7 @@ def _length(name: str, value: float | str | None, relative: float | None) -> dic
 
 def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start: float) -> Result:
     result = Result()
-    for name in ("vertices", "faces", "source_triangle", "barycentric"):
+    for name in ("vertices", "faces", "source_triangle", "barycentric", "feature_edges"):
         setattr(result, name, outcome[name])
     result.attributes = _attributes.from_core(outcome["attributes"])
     result.status = Status(outcome["status"])
@@ -193,7 +217,11 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
     result.report = Report(
         version=_core.version,
         status=result.status.value,
-        options={name: v for name, v in options.items() if name not in ("target_lengths", "history")},
+        options={
+            name: v
+            for name, v in options.items()
+            if name not in ("target_lengths", "feature_edges", "history")
+        },
         repairs=outcome["repairs"],
         before=outcome["before"],
         before_vertices=len(result.source.vertices),
@@ -204,6 +232,7 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         seconds=time.perf_counter() - start,
         stages=outcome["stages"],
         size_ratio=outcome["size_ratio"],
+        narrow_corners=outcome["narrow_corners"],
     )
     if outcome["max_error"] > 0:
         result.report["max_error"] = outcome["max_error"]

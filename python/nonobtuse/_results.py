@@ -103,6 +103,7 @@ class Result:
         "barycentric",
         "certificate",
         "faces",
+        "feature_edges",
         "goal",
         "report",
         "source",
@@ -121,6 +122,8 @@ class Result:
     """(n, 3): coordinates of the nearest point in that face."""
     attributes: Attributes | None
     """Those given, carried over; None if there were none."""
+    feature_edges: NDArray[np.int32]
+    """(k, 2): edges of the result that make up the creases and boundaries of the input."""
     source: Mesh
     """The mesh that ``source_triangle`` speaks of: the arrays given, or the repaired input."""
     status: Status

@@ -5,6 +5,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -24,6 +25,9 @@ using VertexArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb
 using LengthArray = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 /// #F by 3 vertex indices.
 using FaceArray = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+
+/// #E by 2 vertex indices.
+using EdgeArray = nb::ndarray<const std::int32_t, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(Index));
 
@@ -59,6 +63,9 @@ inline nb::object array_of(std::vector<Vec3>&& points) {
 }
 inline nb::object array_of(std::vector<Triangle>&& triangles) {
   return array_of<Index>(std::move(triangles), 3);
+}
+inline nb::object array_of(std::vector<std::array<Index, 2>>&& edges) {
+  return array_of<Index>(std::move(edges), 2);
 }
 inline nb::object array_of(std::vector<Index>&& indices) {
   return array_of<Index>(std::move(indices), 0);

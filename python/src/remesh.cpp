@@ -122,6 +122,13 @@ Sizing sizing_of(const std::string& name) {
   return Sizing::Uniform;  // likewise
 }
 
+Features features_of(const std::string& name) {
+  if (name == "none") return Features::None;
+  if (name == "dihedral") return Features::Dihedral;
+  if (name == "given") return Features::Given;
+  return Features::Auto;  // likewise
+}
+
 nb::dict to_dict(const SizeRatio& ratio) {
   nb::dict d;
   d["median"] = ratio.median;
@@ -158,6 +165,16 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["faces"] = array_of(std::move(result.mesh.triangles));
   d["source_triangle"] = array_of(std::move(result.source_triangle));
   d["barycentric"] = array_of(std::move(result.barycentric));
+  d["feature_edges"] = array_of(std::move(result.feature_edges));
+  nb::list corners;
+  for (const NarrowCorner& corner : result.narrow_corners) {
+    nb::dict entry;
+    entry["vertex"] = corner.vertex;
+    entry["input_angle"] = corner.input_angle;
+    entry["reached_angle"] = corner.reached_angle;
+    corners.append(entry);
+  }
+  d["narrow_corners"] = corners;
   d["status"] = name_of(result.status);
   d["certificate"] = to_tuple(std::move(result.certificate));
   d["goal"] = to_tuple(std::move(result.goal));
@@ -180,6 +197,8 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
                        double edge_length, double relative_edge_length, const std::string& method,
                        const std::string& sizing, const LengthArray& target_lengths,
                        double gradation, double max_error, double relative_max_error,
+                       const std::string& features, double feature_angle,
+                       const EdgeArray& feature_edges, const std::string& boundary,
                        double min_angle, double max_angle, bool on_surface, double penalty,
                        double normal_weight, int iterations, bool history, std::uint64_t seed,
                        int threads, nb::object progress, bool clean_first,
@@ -197,6 +216,10 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
   options.gradation = gradation;
   options.max_error = max_error;
   options.relative_max_error = relative_max_error;
+  options.features = features_of(features);
+  options.feature_angle = feature_angle;
+  options.feature_edges = rows_of<std::array<Index, 2>>(feature_edges);
+  options.boundary = boundary == "freeze" ? Boundary::Freeze : Boundary::Resample;
   options.min_angle = min_angle;
   options.max_angle = max_angle;
   options.on_surface = on_surface;
@@ -224,8 +247,9 @@ void bind_remesh(nb::module_& module) {
   module.def("remesh", remesh_arrays, nb::arg(), nb::arg(), nb::kw_only(), nb::arg("vertices"),
              nb::arg("edge_length"), nb::arg("relative_edge_length"), nb::arg("method"),
              nb::arg("sizing"), nb::arg("target_lengths"), nb::arg("gradation"),
-             nb::arg("max_error"), nb::arg("relative_max_error"), nb::arg("min_angle"),
-             nb::arg("max_angle"), nb::arg("on_surface"), nb::arg("penalty"),
+             nb::arg("max_error"), nb::arg("relative_max_error"), nb::arg("features"),
+             nb::arg("feature_angle"), nb::arg("feature_edges"), nb::arg("boundary"),
+             nb::arg("min_angle"), nb::arg("max_angle"), nb::arg("on_surface"), nb::arg("penalty"),
              nb::arg("normal_weight"), nb::arg("iterations"), nb::arg("history"), nb::arg("seed"),
              nb::arg("threads"), nb::arg("progress").none(), nb::arg("clean"),
              nb::arg("attributes"));

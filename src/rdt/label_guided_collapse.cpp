@@ -33,15 +33,24 @@ class GuidedCollapse {
     for (std::size_t t = 0; t < facet_.size(); ++t) facet_[t] = static_cast<Index>(t);
   }
 
+  // With prescribed vertices: they are the first of the sites.
+  GuidedCollapse(const mesh::Surface& surface, std::span<const Vec3> sites,
+                 std::span<const Index> feet, std::span<const Index> knots)
+      : GuidedCollapse(surface, sites, feet) {
+    knots_ = knots;
+    prescribed_ = true;
+  }
+
   CollapsedMesh run() {
     refine(kResolution *
            std::sqrt(2 / std::sqrt(3.0) * surface_.area / static_cast<double>(sites_.size())));
     insert_sites();
+    if (prescribed_) claim_boundary();
     flood();
-    move_to_boundary();
+    if (!prescribed_) move_to_boundary();
     while (collapse_pass()) {
     }
-    return finish();
+    return prescribed_ ? finish_prescribed() : finish();
   }
 
  private:
@@ -81,7 +90,8 @@ class GuidedCollapse {
 
   // Makes every site a vertex, inside the triangle of its foot facet nearest to it.
   void insert_sites() {
-    const Index count = static_cast<Index>(sites_.size());
+    const auto count = static_cast<Index>(sites_.size());
+    const auto knots = static_cast<Index>(knots_.size());
     std::vector<Index> start(surface_.triangles.size() + 1, 0);
     for (const Index f : facet_) ++start[f + 1];
     for (std::size_t f = 1; f < start.size(); ++f) start[f] += start[f - 1];
@@ -90,11 +100,13 @@ class GuidedCollapse {
     for (std::size_t t = 0; t < facet_.size(); ++t)
       parts[fill[facet_[t]]++] = static_cast<Index>(t);
 
-    std::vector<Index> order(count);
-    for (Index i = 0; i < count; ++i) order[i] = i;
+    std::vector<Index> order;
+    for (Index i = knots; i < count; ++i) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](Index i, Index j) { return feet_[i] < feet_[j]; });
     seed_.assign(count, -1);
+    moved_.assign(count, 0);
+    std::copy(knots_.begin(), knots_.end(), seed_.begin());
     std::vector<Index> open;
     Index open_facet = -1;
     for (const Index i : order) {
@@ -122,6 +134,34 @@ class GuidedCollapse {
     }
   }
 
+  // Every boundary vertex belongs to the nearest knot along its loop.
+  void claim_boundary() {
+    claimed_.assign(mesh_.vertex_capacity(), -1);
+    for (std::size_t i = 0; i < knots_.size(); ++i) claimed_[knots_[i]] = static_cast<Index>(i);
+    const auto after = [&](Index v) {
+      const Index t = mesh_.triangle_of(v);
+      return mesh_.triangle(t)[mesh::next(mesh_.corner_of(t, v))];
+    };
+    std::vector<Index> run;
+    std::vector<double> arc;
+    for (std::size_t i = 0; i < knots_.size(); ++i) {
+      if (!mesh_.on_boundary(knots_[i])) continue;
+      run.assign(1, knots_[i]);
+      arc.assign(1, 0);
+      do {
+        const Index v = after(run.back());
+        arc.push_back(arc.back() + distance(mesh_.positions[run.back()], mesh_.positions[v]));
+        run.push_back(v);
+      } while (claimed_[run.back()] < 0 || !is_knot(run.back()));
+      for (std::size_t k = 1; k + 1 < run.size(); ++k)
+        claimed_[run[k]] = claimed_[2 * arc[k] <= arc.back() ? run.front() : run.back()];
+    }
+  }
+
+  [[nodiscard]] bool is_knot(Index v) const {
+    return claimed_[v] >= 0 && knots_[claimed_[v]] == v;
+  }
+
   void flood() {
     struct Front {
       double key;
@@ -135,6 +175,9 @@ class GuidedCollapse {
     key_.assign(vertices, std::numeric_limits<double>::infinity());
     std::priority_queue<Front> queue;
     for (Index i = 0; i < static_cast<Index>(seed_.size()); ++i) queue.push({0, seed_[i], i});
+    for (Index v = 0; v < static_cast<Index>(claimed_.size()); ++v)
+      if (claimed_[v] >= 0)
+        queue.push({distance(mesh_.positions[v], sites_[claimed_[v]]), v, claimed_[v]});
     std::vector<Index> ring;
     while (!queue.empty()) {
       const Front at = queue.top();
@@ -144,7 +187,7 @@ class GuidedCollapse {
       key_[at.vertex] = at.key;
       mesh_.neighbors(at.vertex, ring);
       for (const Index v : ring)
-        if (label_[v] < 0)
+        if (label_[v] < 0 && (!prescribed_ || claimed_[v] < 0))
           queue.push({std::max(at.key, distance(mesh_.positions[v], sites_[at.site])), v, at.site});
     }
     // Vertices of components without a site keep label -1 and an infinite key.
@@ -152,7 +195,6 @@ class GuidedCollapse {
 
   // A cell that reaches the boundary is represented there: boundary vertices cannot leave it.
   void move_to_boundary() {
-    moved_.assign(seed_.size(), 0);
     for (Index v = 0; v < mesh_.vertex_capacity(); ++v) {
       if (!mesh_.alive_vertex(v) || label_[v] < 0 || !mesh_.on_boundary(v)) continue;
       const Index i = label_[v];
@@ -192,7 +234,64 @@ class GuidedCollapse {
 
   [[nodiscard]] bool is_seed(Index v) const { return label_[v] >= 0 && seed_[label_[v]] == v; }
 
+  // Boundary vertices that are left between two knots, since a chord of the mesh joins their
+  // neighbours: the chord is split, then they go.
+  void clear_boundary() {
+    std::vector<Index> ring;
+    for (bool again = true; again;) {
+      again = false;
+      for (Index v = 0; v < mesh_.vertex_capacity(); ++v) {
+        if (!mesh_.alive_vertex(v) || !mesh_.on_boundary(v) || is_seed(v)) continue;
+        mesh_.neighbors(v, ring);
+        for (const Index a : {ring.front(), ring.back()}) {
+          const Edge e = mesh_.find_edge(v, a);
+          if (!mesh_.can_collapse(e, v)) split_chords(v, a);
+          if (!mesh_.can_collapse(mesh_.find_edge(v, a), v)) continue;
+          mesh_.collapse(mesh_.find_edge(v, a), v);
+          again = true;
+          break;
+        }
+      }
+    }
+  }
+
+  // Splits the interior edges from v to those other than their triangle's apex that a is joined to.
+  void split_chords(Index v, Index a) {
+    const Index apex = mesh_.opposite_vertex(mesh_.find_edge(v, a));
+    std::vector<Index> ring;
+    mesh_.neighbors(v, ring);
+    for (const Index w : ring) {
+      if (w == a || w == apex || !mesh_.find_edge(a, w).valid()) continue;
+      const Edge e = mesh_.find_edge(v, w);
+      const Edge o = mesh_.twin(e);
+      if (!o.valid()) continue;
+      mesh_.split_edge(e, 0.5 * (mesh_.positions[v] + mesh_.positions[w]));
+      label_.push_back(label_[v]);
+      key_.push_back(key_[v]);
+      facet_.push_back(facet_[e.triangle]);
+      facet_.push_back(facet_[o.triangle]);
+    }
+  }
+
+  CollapsedMesh finish_prescribed() {
+    clear_boundary();
+    mesh_.knot.assign(mesh_.vertex_capacity(), -1);
+    for (std::size_t i = 0; i < knots_.size(); ++i) mesh_.knot[knots_[i]] = static_cast<Index>(i);
+    return take_result();
+  }
+
   CollapsedMesh finish() {
+    CollapsedMesh result = take_result();
+    const auto count = static_cast<Index>(sites_.size());
+    if (result.mesh.vertex_count() > count)
+      throw TooFewVertices("The topology of the surface needs more than the " +
+                               std::to_string(count) + " vertices asked for: " +
+                               std::to_string(result.mesh.vertex_count()) + " were reached.",
+                           result.mesh.vertex_count());
+    return result;
+  }
+
+  CollapsedMesh take_result() {
     CollapsedMesh result;
     std::vector<Index> foot(mesh_.vertex_capacity(), -1);
     std::vector<char> is_site(mesh_.vertex_capacity(), 0);
@@ -201,7 +300,7 @@ class GuidedCollapse {
         for (const Index v : mesh_.triangle(t)) foot[v] = facet_[t];
     for (std::size_t i = 0; i < seed_.size(); ++i) {
       is_site[seed_[i]] = 1;
-      if (moved_[i]) continue;
+      if (moved_[i] || feet_[i] < 0) continue;
       mesh_.positions[seed_[i]] = sites_[i];
       foot[seed_[i]] = feet_[i];
     }
@@ -213,11 +312,6 @@ class GuidedCollapse {
     delaunay_flips(surface_, result.foot, result.mesh);
     reduce_vertices(surface_, count, result.mesh, result.foot);
     delaunay_flips(surface_, result.foot, result.mesh);
-    if (result.mesh.vertex_count() > count)
-      throw TooFewVertices("The topology of the surface needs more than the " +
-                               std::to_string(count) + " vertices asked for: " +
-                               std::to_string(result.mesh.vertex_count()) + " were reached.",
-                           result.mesh.vertex_count());
     return result;
   }
 
@@ -228,6 +322,9 @@ class GuidedCollapse {
   std::vector<Index> facet_;  // of the surface, for each triangle of the copy
   std::vector<Index> seed_;   // the vertex of each site
   std::vector<char> moved_;   // the site is represented by a boundary vertex
+  std::span<const Index> knots_;
+  bool prescribed_ = false;
+  std::vector<Index> claimed_;  // the knot of each boundary vertex, if prescribed
   std::vector<Index> label_;
   std::vector<double> key_;
 };
@@ -237,6 +334,16 @@ class GuidedCollapse {
 CollapsedMesh label_guided_collapse(const mesh::Surface& surface, std::span<const Vec3> sites,
                                     std::span<const Index> feet) {
   return GuidedCollapse(surface, sites, feet).run();
+}
+
+CollapsedMesh label_guided_collapse(const mesh::Surface& surface, std::span<const Index> knots,
+                                    std::span<const Vec3> sites, std::span<const Index> feet) {
+  std::vector<Vec3> all;
+  std::vector<Index> all_feet(knots.size(), -1);
+  for (const Index v : knots) all.push_back(surface.vertices[v]);
+  all.insert(all.end(), sites.begin(), sites.end());
+  all_feet.insert(all_feet.end(), feet.begin(), feet.end());
+  return GuidedCollapse(surface, all, all_feet, knots).run();
 }
 
 }  // namespace nonobtuse::rdt

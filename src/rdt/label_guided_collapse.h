@@ -24,4 +24,13 @@ struct CollapsedMesh {
 CollapsedMesh label_guided_collapse(const mesh::Surface& surface, std::span<const Vec3> sites,
                                     std::span<const Index> feet);
 
+/// The same with all boundary vertices prescribed. `knots` (#K) are vertices of the surface, at
+/// least three on every boundary loop, in any order; `sites` and `feet` (#X) are those of the
+/// interior. In the result every boundary loop consists of its knots, in order and in place, and
+/// `mesh.knot` (#V) tells which vertex is which (index into `knots`, -1 elsewhere). Knots in the
+/// interior are kept in place as well. Where the topology needs more than #K + #X vertices there
+/// are more: `mesh` may then be larger, and nothing is thrown.
+CollapsedMesh label_guided_collapse(const mesh::Surface& surface, std::span<const Index> knots,
+                                    std::span<const Vec3> sites, std::span<const Index> feet);
+
 }  // namespace nonobtuse::rdt

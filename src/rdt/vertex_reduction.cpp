@@ -58,6 +58,7 @@ class Reducer {
       if (mesh_.vertex_count() <= count) break;
       if (touched[c.removed] || touched[c.kept]) continue;
       if (!mesh_.alive_vertex(c.removed) || !mesh_.alive_vertex(c.kept)) continue;
+      if (!mesh_.knot.empty() && mesh_.knot[c.removed] >= 0) continue;
       const Edge e = mesh_.find_edge(c.removed, c.kept);
       if (!e.valid() || !mesh_.can_collapse(e, c.removed) || !allowed(c.removed, c.kept, guard))
         continue;

@@ -129,6 +129,22 @@ void Knots::move(mesh::EditableMesh& mesh, Index knot, double arc) {
   for (const Index v : own.copies) mesh.positions[v] = p;
 }
 
+Index Knots::insert(const mesh::Knot& place, Index before, Index after) {
+  const Index knot = static_cast<Index>(all.size());
+  all.push_back({place, before, after, true, {}});
+  if (before >= 0) all[before].after = knot;
+  if (after >= 0) all[after].before = knot;
+  return knot;
+}
+
+void Knots::remove(Index knot) {
+  SlidingKnot& own = all[knot];
+  if (own.before >= 0) all[own.before].after = own.after;
+  if (own.after >= 0) all[own.after].before = own.before;
+  own.copies.clear();
+  own.slides = false;
+}
+
 bool Knots::edge_allowed(const mesh::EditableMesh& mesh, Index a, Index b) const {
   if (empty()) return true;
   const Index ka = mesh.knot[a], kb = mesh.knot[b];

@@ -60,6 +60,11 @@ class Knots {
   /// Writes the knots back to the network they come from.
   void store(mesh::CurveNetwork& network) const;
 
+  /// A new knot without copies between two neighbours (-1: the curve's end); returns its number.
+  Index insert(const mesh::Knot& place, Index before, Index after);
+  /// Takes a knot out of its curve; its number stays unused.
+  void remove(Index knot);
+
   /// Whether an edge between a and b may come into being: not between two copies of one knot, nor
   /// where other copies of their knots are joined already, since the edges would become one.
   [[nodiscard]] bool edge_allowed(const mesh::EditableMesh& mesh, Index a, Index b) const;

@@ -41,6 +41,28 @@ class TriangleMender {
     std::vector<std::vector<Edit>> sequences;
     for (Index v : local(patch, t))
       for (auto& edits : search_balancing_edits(patch, v, net, 6)) sequences.push_back(edits);
+    return commit_balanced(patch, sequences, net);
+  }
+
+  // A knot more or less on the curves that the triangle touches.
+  bool by_curve(Index t, int net) {
+    const Patch patch(mesh_, fidelity_, mesh_.triangle(t), kRings);
+    std::vector<std::vector<Edit>> sequences;
+    for (Index v : local(patch, t))
+      if (patch.boundary(v) && patch.mesh.knot[v] >= 0)
+        for (auto& edits : search_curve_edits(patch, v, net, 6)) sequences.push_back(edits);
+    return !sequences.empty() && commit_balanced(patch, sequences, net);
+  }
+
+ private:
+  [[nodiscard]] Triangle local(const Patch& patch, Index t) const {
+    const Triangle& v = mesh_.triangle(t);
+    return {patch.local(v[0]), patch.local(v[1]), patch.local(v[2])};
+  }
+
+  // A change of the number of vertices stays only if it can be made up for elsewhere.
+  bool commit_balanced(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
+                       int net) {
     const mesh::EditableMesh mesh_before = mesh_;
     const Fidelity fidelity_before = fidelity_;
     if (!commit_if_better(patch, sequences)) return false;
@@ -48,12 +70,6 @@ class TriangleMender {
     mesh_ = mesh_before;
     fidelity_ = fidelity_before;
     return false;
-  }
-
- private:
-  [[nodiscard]] Triangle local(const Patch& patch, Index t) const {
-    const Triangle& v = mesh_.triangle(t);
-    return {patch.local(v[0]), patch.local(v[1]), patch.local(v[2])};
   }
 
   bool commit_if_better(const Patch& patch, const std::vector<std::vector<Edit>>& sequences) {
@@ -87,6 +103,9 @@ Index mend_triangles(mesh::EditableMesh& mesh, Fidelity& fidelity,
     bool changed = mender.by_flips(t);
     for (int net : {-1, 1})
       if (!changed && mesh.alive_triangle(t)) changed = mender.by_pair(t, net);
+    if (!fidelity.knots.empty())
+      for (int net : {-1, 1})
+        if (!changed && mesh.alive_triangle(t)) changed = mender.by_curve(t, net);
     changes += changed;
   }
   return changes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "refine/curve_edits.h"
 #include "refine/neighborhood.h"
 
 namespace nonobtuse::refine {
@@ -69,6 +70,9 @@ std::vector<Index> triangles_of(const mesh::EditableMesh& mesh, const Knots& kno
 }  // namespace
 
 bool edit_possible(const mesh::EditableMesh& mesh, const Knots& knots, const Edit& edit) {
+  if (edit.kind == Edit::Kind::CollapseCurve)
+    return can_collapse_curve(mesh, knots, edit.a, edit.b);
+  if (edit.kind == Edit::Kind::SplitCurve) return can_split_curve(mesh, knots, edit.a, edit.b);
   const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
   if (!e.valid()) return false;
   switch (edit.kind) {
@@ -81,26 +85,38 @@ bool edit_possible(const mesh::EditableMesh& mesh, const Knots& knots, const Edi
              knots.collapse_allowed(mesh, edit.a, edit.b);
     case Edit::Kind::Split:
       return mesh.twin(e).valid();
+    default:
+      return false;
   }
   return false;
 }
 
-Index apply_edit(mesh::EditableMesh& mesh, const Edit& edit) {
-  const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
+std::vector<Index> apply_edit(mesh::EditableMesh& mesh, Knots& knots, const Edit& edit) {
   switch (edit.kind) {
     case Edit::Kind::Flip:
-      mesh.flip(e);
-      return -1;
+      mesh.flip(mesh.find_edge(edit.a, edit.b));
+      break;
     case Edit::Kind::Collapse:
-      mesh.collapse(e, edit.a);
-      return -1;
+      mesh.collapse(mesh.find_edge(edit.a, edit.b), edit.a);
+      break;
     case Edit::Kind::Split:
-      return mesh.split_edge(e, 0.5 * (mesh.positions[edit.a] + mesh.positions[edit.b]));
+      return {mesh.split_edge(mesh.find_edge(edit.a, edit.b),
+                              0.5 * (mesh.positions[edit.a] + mesh.positions[edit.b]))};
+    case Edit::Kind::CollapseCurve:
+      collapse_curve(mesh, knots, edit.a, edit.b);
+      break;
+    case Edit::Kind::SplitCurve:
+      return split_curve(mesh, knots, edit.a, edit.b);
   }
-  return -1;
+  return {};
 }
 
-Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit) {
+std::vector<Index> apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit) {
+  if (edit.kind == Edit::Kind::SplitCurve) return split_curve(mesh, fidelity, edit.a, edit.b);
+  if (edit.kind == Edit::Kind::CollapseCurve) {
+    collapse_curve(mesh, fidelity, edit.a, edit.b);
+    return {};
+  }
   const mesh::Edge e = mesh.find_edge(edit.a, edit.b);
   std::vector<Index> concerned;
   if (edit.kind == Edit::Kind::Collapse) {
@@ -108,7 +124,7 @@ Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit)
   } else {
     concerned = {e.triangle, mesh.twin(e).triangle};
   }
-  const Index made = apply_edit(mesh, edit);
+  const std::vector<Index> made = apply_edit(mesh, fidelity.knots, edit);
   for (Index t = static_cast<Index>(fidelity.first.size()); t < mesh.triangle_capacity(); ++t) {
     fidelity.first.push_back(-1);
     fidelity.edge_planes.emplace_back();
@@ -116,12 +132,12 @@ Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit)
     concerned.push_back(t);
   }
   fidelity.redistribute(mesh, concerned);
-  if (made >= 0) {
+  for (const Index m : made) {
     fidelity.vertex_planes.emplace_back();
     fidelity.vertex_weights.push_back(0);
     fidelity.size.add_between(edit.a, edit.b);
     fidelity.patches.add_beside(edit.a);
-    fidelity.update_vertex(mesh, made);
+    fidelity.update_vertex(mesh, m);
   }
   for (Index t : concerned)
     if (mesh.alive_triangle(t)) fidelity.update_triangle(mesh, t);
@@ -159,6 +175,7 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
     add_rings(whole, core, 1);
     knots.add_copies(whole, core);
   }
+  sort_unique(core);
   triangle = triangles_of(whole, knots, core);
   for (Index t : triangle)
     for (Index v : whole.triangle(t)) vertex.push_back(v);
@@ -223,7 +240,9 @@ int Patch::total_defect() const {
 bool Patch::possible(const Edit& edit) const {
   // A patch of a closed mesh may hold an edge of two border vertices twice over; and the ring of a
   // border vertex is not known: one inner end makes the new edge's existence decidable.
-  if (edit.kind == Edit::Kind::Collapse) {
+  if (edit.kind == Edit::Kind::CollapseCurve || edit.kind == Edit::Kind::SplitCurve) {
+    if (!inner_knot(edit.a) || !inner_knot(edit.b)) return false;
+  } else if (edit.kind == Edit::Kind::Collapse) {
     if (!inner(edit.a) || !inner(edit.b)) return false;
   } else if (!inner(edit.a) && !inner(edit.b)) {
     return false;
@@ -238,16 +257,32 @@ bool Patch::possible(const Edit& edit) const {
   return edit_possible(mesh, fidelity.knots, edit);
 }
 
-void Patch::remember(const Edit& edit, Index made) {
-  edits.push_back(edit);
-  if (made < 0) return;
-  vertex.push_back(-1);
-  hidden_.push_back(0);
-  boundary_.push_back(0);
-  inner_.push_back(1);
+// Whether the patch knows all copies of v's knot and all that is around them.
+bool Patch::inner_knot(Index v) const {
+  const Index k = mesh.knot.empty() ? -1 : mesh.knot[v];
+  if (k < 0) return false;
+  if (fidelity.knots.all[k].slides) return true;
+  const std::vector<Index>& copies = fidelity.knots.all[k].copies;
+  return std::all_of(copies.begin(), copies.end(), [&](Index c) { return inner(c); });
 }
 
-void Patch::apply(const Edit& edit) { remember(edit, apply_edit(mesh, edit)); }
+void Patch::remember(const Edit& edit, const std::vector<Index>& made) {
+  edits.push_back(edit);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    vertex.push_back(-1);
+    hidden_.push_back(0);
+    boundary_.push_back(edit.kind == Edit::Kind::SplitCurve);
+    inner_.push_back(1);
+  }
+  if (edit.kind == Edit::Kind::SplitCurve) knot_.push_back(-1);
+}
+
+void Patch::apply(const Edit& edit) {
+  const std::vector<Index> made = apply_edit(mesh, fidelity.knots, edit);
+  if (edit.kind == Edit::Kind::SplitCurve)
+    for (const Index m : made) fidelity.valences.measure(mesh, m);
+  remember(edit, made);
+}
 
 void Patch::apply_with_samples(const Edit& edit) {
   remember(edit, apply_edit(mesh, fidelity, edit));
@@ -282,10 +317,14 @@ PatchScore Patch::score(const energy::ShapeWeights& shape, const AngleTest& prom
 std::vector<Index> Patch::commit(mesh::EditableMesh& whole, Fidelity& whole_fidelity) {
   Index next_made = 0;
   while (next_made < static_cast<Index>(vertex.size()) && vertex[next_made] >= 0) ++next_made;
+  std::size_t next_knot = 0;
+  while (next_knot < knot_.size() && knot_[next_knot] >= 0) ++next_knot;
   for (const Edit& edit : edits) {
-    const Index made =
-        apply_edit(whole, whole_fidelity, {edit.kind, vertex[edit.a], vertex[edit.b]});
-    if (made >= 0) vertex[next_made++] = made;
+    for (const Index made :
+         apply_edit(whole, whole_fidelity, {edit.kind, vertex[edit.a], vertex[edit.b]}))
+      vertex[next_made++] = made;
+    if (edit.kind == Edit::Kind::SplitCurve)
+      knot_[next_knot++] = static_cast<Index>(whole_fidelity.knots.all.size()) - 1;
   }
   for (std::size_t k = 0; k < knot_.size(); ++k)
     if (fidelity.knots.all[k].slides)

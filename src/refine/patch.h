@@ -15,17 +15,18 @@ namespace nonobtuse::refine {
 
 /// One edit of the connectivity, by vertices.
 struct Edit {
-  enum class Kind { Flip, Collapse, Split };
+  enum class Kind { Flip, Collapse, Split, CollapseCurve, SplitCurve };
   Kind kind;
-  Index a, b;  ///< Flip, Split: the edge ab. Collapse: a disappears into b.
+  Index a, b;  ///< Flip, Split: the edge ab. Collapse: a disappears into b. The last two: any
+               ///< copies of the knots, done on all sides of the curve (curve_edits.h)
 };
 
 /// Whether the mesh admits the edit (topology, knots, and that no triangle turns over).
 bool edit_possible(const mesh::EditableMesh& mesh, const Knots& knots, const Edit& edit);
-/// Applies it; a Split puts the new vertex at the middle and returns it (else -1).
-Index apply_edit(mesh::EditableMesh& mesh, const Edit& edit);
+/// Applies it; a Split puts the new vertex at the middle. Returns the new vertices.
+std::vector<Index> apply_edit(mesh::EditableMesh& mesh, Knots& knots, const Edit& edit);
 /// The same, and hands the samples of the triangles that change to those that replace them.
-Index apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit);
+std::vector<Index> apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, const Edit& edit);
 
 /// How good a patch or mesh is: compared in the order of the members, smaller is better.
 struct PatchScore {
@@ -76,7 +77,8 @@ class Patch {
   std::vector<Index> commit(mesh::EditableMesh& whole, Fidelity& whole_fidelity);
 
  private:
-  void remember(const Edit& edit, Index made);
+  void remember(const Edit& edit, const std::vector<Index>& made);
+  [[nodiscard]] bool inner_knot(Index v) const;
 
   std::vector<int> hidden_;  // neighbours outside the patch
   std::vector<char> boundary_, inner_;

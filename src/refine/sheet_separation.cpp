@@ -36,6 +36,22 @@ bool cross_each_other(const Corners& a, const Corners& b) {
   return false;
 }
 
+// Triangles of two sectors that touch at copies of a knot: only an edge away from all shared
+// points can pass through the other, in exact arithmetic and so here.
+bool cross_beside_knots(const Corners& a, const Triangle& of_a, const Corners& b,
+                        const Triangle& of_b) {
+  const auto passes = [](const Corners& p, const Triangle& own, const Corners& q,
+                         const Triangle& other) {
+    const auto shared = [&](Index v) { return v == other[0] || v == other[1] || v == other[2]; };
+    for (int k = 0; k < 3; ++k)
+      if (!shared(own[k]) && !shared(own[mesh::next(k)]) &&
+          passes_through(p[k], p[mesh::next(k)], q))
+        return true;
+    return false;
+  };
+  return passes(a, of_a, b, of_b) || passes(b, of_b, a, of_a);
+}
+
 bool share_vertex(const Triangle& a, const Triangle& b) {
   for (Index v : a)
     if (v == b[0] || v == b[1] || v == b[2]) return true;
@@ -45,11 +61,15 @@ bool share_vertex(const Triangle& a, const Triangle& b) {
 }  // namespace
 
 std::vector<std::pair<Index, Index>> crossing_triangles(const mesh::EditableMesh& mesh,
+                                                        const Knots& knots,
                                                         const parallel::Workers& workers) {
   std::vector<Triangle> triangles;
   std::vector<Index> old;
   for (Index t = 0; t < mesh.triangle_capacity(); ++t)
     if (mesh.alive_triangle(t)) triangles.push_back(mesh.triangle(t)), old.push_back(t);
+  std::vector<Triangle> glued = triangles;
+  for (Triangle& t : glued)
+    for (Index& v : t) v = knots.representative(mesh, v);
   const spatial::TriangleBvh bvh(mesh.positions, triangles, workers);
   std::vector<std::vector<Index>> found(triangles.size());
   workers.for_each(triangles.size(), 256, [&](std::size_t i) {
@@ -62,7 +82,12 @@ std::vector<std::pair<Index, Index>> crossing_triangles(const mesh::EditableMesh
       const Corners b = corners(mesh, old[j]);
       if (share_vertex(triangles[i], triangles[j]) && dot(area_vector(a), area_vector(b)) >= 0)
         return;
-      if (cross_each_other(a, b)) found[i].push_back(j);
+      const Triangle& glued_a = glued[i];
+      const Triangle& glued_b = glued[j];
+      const bool beside_knots =
+          !share_vertex(triangles[i], triangles[j]) && share_vertex(glued_a, glued_b);
+      if (beside_knots ? cross_beside_knots(a, glued_a, b, glued_b) : cross_each_other(a, b))
+        found[i].push_back(j);
     });
     std::sort(found[i].begin(), found[i].end());
   });
@@ -76,7 +101,7 @@ Index separate_sheets(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialO
                       const parallel::Workers& workers,
                       const std::function<bool(double)>& keep_going) {
   const AngleTest goal(options.goal);
-  std::vector<std::pair<Index, Index>> pairs = crossing_triangles(mesh, workers);
+  std::vector<std::pair<Index, Index>> pairs = crossing_triangles(mesh, fidelity.knots, workers);
   if (pairs.empty()) return 0;
   const std::size_t outside = triangles_outside(mesh, goal).size();
   std::size_t least = pairs.size();
@@ -100,7 +125,7 @@ Index separate_sheets(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialO
     fidelity.knots.add_copies(mesh, active);
     relax(mesh, fidelity, active, {options.shape, 6, options.on_surface}, workers);
     fidelity.rewalk(mesh, triangles_around(mesh, active));
-    pairs = crossing_triangles(mesh, workers);
+    pairs = crossing_triangles(mesh, fidelity.knots, workers);
     if (pairs.size() >= least || triangles_outside(mesh, goal).size() > outside) continue;
     least = pairs.size();
     best_mesh = mesh;

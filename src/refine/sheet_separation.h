@@ -10,9 +10,10 @@
 
 namespace nonobtuse::refine {
 
-/// Pairs of triangles that properly cross each other, by index. In doubles: touching and overlap
-/// in a plane do not count.
+/// Pairs of triangles that properly cross each other, by index. In doubles: touching (also at
+/// copies of one knot) and overlap in a plane do not count.
 std::vector<std::pair<Index, Index>> crossing_triangles(const mesh::EditableMesh& mesh,
+                                                        const Knots& knots,
                                                         const parallel::Workers& workers);
 
 /// Pushes crossing sheets apart, a little farther out every round, while that lowers the number of

@@ -32,6 +32,9 @@ class PatchLabels {
   [[nodiscard]] bool agree(Index facet, Index vertex) const {
     return empty() || (*of_facet)[facet] == of_vertex[vertex];
   }
+  [[nodiscard]] bool same_patch(Index v, Index w) const {
+    return empty() || of_vertex[v] == of_vertex[w];
+  }
   /// A new vertex beside another.
   void add_beside(Index v) {
     if (!empty()) of_vertex.push_back(of_vertex[v]);

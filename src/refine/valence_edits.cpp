@@ -178,6 +178,21 @@ std::vector<std::vector<Edit>> search_balancing_edits(const Patch& patch, Index 
   return found.best();
 }
 
+std::vector<std::vector<Edit>> search_curve_edits(const Patch& patch, Index v, int net,
+                                                  int solutions) {
+  Search found(patch.total_defect(), solutions);
+  std::vector<Index> ring;
+  patch.mesh.neighbors(v, ring);
+  for (const Index u : {ring.front(), ring.back()}) {  // along the boundary
+    const Edit edit{net < 0 ? Edit::Kind::CollapseCurve : Edit::Kind::SplitCurve, v, u};
+    if (!patch.possible(edit)) continue;
+    Patch next = patch;
+    next.apply(edit);
+    found.descend(next, 3);
+  }
+  return found.best();
+}
+
 std::vector<std::vector<Edit>> search_neutral_flips(const Patch& patch, const Triangle& around,
                                                     int solutions) {
   Search found(patch.total_defect(), solutions);

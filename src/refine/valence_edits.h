@@ -25,6 +25,10 @@ std::vector<std::vector<Edit>> search_valence_edits(const Patch& patch, Index ba
 std::vector<std::vector<Edit>> search_balancing_edits(const Patch& patch, Index place, int net,
                                                       int solutions);
 
+/// A knot less (net = -1) or more (+1) on the curve at v, with flips that restore the valences.
+std::vector<std::vector<Edit>> search_curve_edits(const Patch& patch, Index v, int net,
+                                                  int solutions);
+
 /// Flips around a triangle (of local vertices), with up to one more to restore the valences, that
 /// do not raise the total defect.
 std::vector<std::vector<Edit>> search_neutral_flips(const Patch& patch, const Triangle& around,

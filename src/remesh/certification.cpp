@@ -24,12 +24,9 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
 // Squared distance, in edge lengths, within which the sheet told by the normal is preferred.
 constexpr double kNear = 4;
 
-}  // namespace
-
-void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
-                 const parallel::Workers& workers, RemeshResult& result) {
+void append(const Part& part, const NormalizedInput& input, const TriangleMesh& working,
+            const parallel::Workers& workers, RemeshResult& result) {
   const mesh::Surface& surface = input.surface;
-  const TriangleMesh working = mesh.to_mesh();
   const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
   const std::vector<Vec3> normals = vertex_normals(working);
   const std::size_t first = result.mesh.vertices.size();
@@ -49,6 +46,24 @@ void append_part(const Part& part, const NormalizedInput& input, const mesh::Edi
   const auto shift = static_cast<Index>(first);
   for (const Triangle& t : working.triangles)
     result.mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+}  // namespace
+
+void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
+                 const parallel::Workers& workers, RemeshResult& result) {
+  append(part, input, mesh.to_mesh(), workers, result);
+}
+
+void append_part(const Part& part, const NormalizedInput& input, const GluedMesh& glued,
+                 const parallel::Workers& workers, RemeshResult& result) {
+  const auto first = static_cast<Index>(result.mesh.vertices.size());
+  append(part, input, glued.mesh, workers, result);
+  for (std::size_t v = 0; v < glued.source.size(); ++v)
+    if (glued.source[v] >= 0)
+      result.mesh.vertices[first + v] = part.mesh.vertices[glued.source[v]];
+  for (const std::array<Index, 2>& e : glued.feature_edges)
+    result.feature_edges.push_back({e[0] + first, e[1] + first});
 }
 
 void certify_result(const RemeshOptions& options, RemeshResult& result) {

@@ -6,6 +6,7 @@
 #include "nonobtuse/options.h"
 #include "nonobtuse/result.h"
 #include "parallel/workers.h"
+#include "remesh/featured_part.h"
 #include "remesh/normalization.h"
 #include "remesh/parts.h"
 
@@ -13,6 +14,10 @@ namespace nonobtuse::pipeline {
 
 /// Appends the mesh of one part, in input coordinates, with source_triangle and barycentric.
 void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
+                 const parallel::Workers& workers, RemeshResult& result);
+
+/// The same for a part with features. Vertices with a source get its very coordinates.
+void append_part(const Part& part, const NormalizedInput& input, const GluedMesh& glued,
                  const parallel::Workers& workers, RemeshResult& result);
 
 /// Fills certificates and angles of a finished mesh, and its status (Converged or AnglesRemain).

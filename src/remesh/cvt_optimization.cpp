@@ -28,10 +28,13 @@ struct Iterate {
   std::vector<Vec3> gradient;
 };
 
-void evaluate(rvd::CellEvaluator& evaluator, Iterate& at, const parallel::Workers& workers) {
+void evaluate(rvd::CellEvaluator& evaluator, Iterate& at, std::span<const char> fixed,
+              const parallel::Workers& workers) {
   evaluator.evaluate(at.sites, at.cells);
   at.gradient.resize(at.sites.size());
   energy::cvt_gradient(at.sites, at.cells, at.gradient, workers);
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (fixed[i] != 0) at.gradient[i] = {};
 }
 
 std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
@@ -63,11 +66,12 @@ void divide_by_mass(const rvd::CellIntegrals& cells, std::span<const Vec3> in, s
 
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
                     double tolerance, const parallel::Workers& workers,
-                    const std::function<bool(const DescentState&)>& callback) {
+                    const std::function<bool(const DescentState&)>& callback,
+                    std::span<const char> fixed) {
   optimize::LbfgsHistory history(kPairs);
   Iterate here;
   here.sites = sites;
-  evaluate(evaluator, here, workers);
+  evaluate(evaluator, here, fixed, workers);
   Iterate trial;
   std::vector<Vec3> direction(sites.size());
   double step = 1;
@@ -90,7 +94,7 @@ double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int
     trial.sites.resize(sites.size());
     workers.for_each(sites.size(), kChunk,
                      [&](std::size_t i) { trial.sites[i] = here.sites[i] + step * direction[i]; });
-    evaluate(evaluator, trial, workers);
+    evaluate(evaluator, trial, fixed, workers);
     if (trial.cells.energy <= here.cells.energy + kSufficientDecrease * step * slope) {
       history.add(difference(trial.sites, here.sites, workers),
                   difference(trial.gradient, here.gradient, workers), workers);

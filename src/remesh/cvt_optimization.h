@@ -51,9 +51,11 @@ struct DescentState {
 /// Minimises the CVT energy by L-BFGS (m = 7, preconditioned by the cells' masses) with at most
 /// `evaluations` evaluations, or until `kStride` of them gain less than `tolerance` (relative); the
 /// first step is Lloyd's. `sites` become the best found. `callback` (may be empty) hears of each
-/// evaluation before it is made; returning false stops. Returns the energy.
+/// evaluation before it is made; returning false stops. Sites marked in `fixed`
+/// (#X, or empty) stay where they are. Returns the energy.
 double minimize_cvt(rvd::CellEvaluator& evaluator, std::vector<Vec3>& sites, int evaluations,
                     double tolerance, const parallel::Workers& workers,
-                    const std::function<bool(const DescentState&)>& callback);
+                    const std::function<bool(const DescentState&)>& callback,
+                    std::span<const char> fixed = {});
 
 }  // namespace nonobtuse::pipeline

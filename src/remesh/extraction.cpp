@@ -21,7 +21,8 @@ Extraction dual_mesh(SiteCells cells, std::vector<Vec3> sites, ExtractionRoute r
   return result;
 }
 
-// Sites with an empty cell (coincident with another) still need a foot.
+}  // namespace
+
 void complete_feet(const mesh::Surface& surface, const std::vector<Vec3>& sites,
                    std::vector<Index>& feet) {
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -40,8 +41,6 @@ void complete_feet(const mesh::Surface& surface, const std::vector<Vec3>& sites,
     }
   }
 }
-
-}  // namespace
 
 Extraction extract(const mesh::Surface& surface, std::vector<Vec3> sites,
                    const parallel::Workers& workers, parallel::Monitor& monitor) {

@@ -25,4 +25,8 @@ struct Extraction {
 Extraction extract(const mesh::Surface& surface, std::vector<Vec3> sites,
                    const parallel::Workers& workers, parallel::Monitor& monitor);
 
+/// Gives sites without a foot (-1: an empty cell) the facet nearest to them.
+void complete_feet(const mesh::Surface& surface, const std::vector<Vec3>& sites,
+                   std::vector<Index>& feet);
+
 }  // namespace nonobtuse::pipeline

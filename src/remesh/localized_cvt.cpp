@@ -23,7 +23,7 @@ constexpr int kPatience = 12;       // steps without fewer defects: repairs chas
 constexpr double kRelaxation = 1.5;
 
 void lloyd_step(const mesh::Surface& surface, const SiteCells& cells, const rvd::CellSums& sums,
-                std::vector<Vec3>& sites) {
+                std::span<const char> fixed, std::vector<Vec3>& sites) {
   std::vector<double> nearest(sites.size(), std::numeric_limits<double>::infinity());
   std::vector<Vec3> moved = sites;
   for (Index f = 0; f < static_cast<Index>(surface.triangles.size()); ++f) {
@@ -41,6 +41,8 @@ void lloyd_step(const mesh::Surface& surface, const SiteCells& cells, const rvd:
       }
     }
   }
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (fixed[i] != 0) moved[i] = sites[i];
   sites = std::move(moved);
 }
 
@@ -79,10 +81,12 @@ std::vector<Index> by_mass(const rvd::CellSums& sums) {
 // Sites without a cell (off the surface, or coincident) go to the farthest points of the largest
 // cells. Returns whether there were any.
 bool revive_empty_cells(const mesh::Surface& surface, const SiteCells& cells,
-                        const rvd::CellSums& sums, std::vector<Vec3>& sites) {
+                        const rvd::CellSums& sums, std::span<const char> fixed,
+                        std::vector<Vec3>& sites) {
   std::vector<Index> empty;
   for (const rdt::DefectiveCell& d : cells.defects)
-    if (d.kind == rdt::CellDefect::Empty) empty.push_back(d.site);
+    if (d.kind == rdt::CellDefect::Empty && (fixed.empty() || fixed[d.site] == 0))
+      empty.push_back(d.site);
   if (empty.empty()) return false;
   std::vector<Index> largest = by_mass(sums);
   std::reverse(largest.begin(), largest.end());
@@ -94,7 +98,7 @@ bool revive_empty_cells(const mesh::Surface& surface, const SiteCells& cells,
 
 // Moves the sites with the smallest cells to the farthest points of defective ones.
 void relocate(const mesh::Surface& surface, const SiteCells& cells, const rvd::CellSums& sums,
-              std::vector<Vec3>& sites) {
+              std::span<const char> fixed, std::vector<Vec3>& sites) {
   std::vector<Index> defective;
   for (const rdt::DefectiveCell& d : cells.defects) defective.push_back(d.site);
   const std::vector<Vec3> targets = farthest_points(surface, sites, cells, defective);
@@ -110,7 +114,10 @@ void relocate(const mesh::Surface& surface, const SiteCells& cells, const rvd::C
     if (std::any_of(t.begin(), t.end(), [&](Index v) { return busy[v] == 1; }))
       for (const Index v : t) busy[v] = std::max<char>(busy[v], 2);
   std::vector<Index> order = by_mass(sums);
-  order.erase(std::remove_if(order.begin(), order.end(), [&](Index i) { return busy[i] != 0; }),
+  order.erase(std::remove_if(order.begin(), order.end(),
+                             [&](Index i) {
+                               return busy[i] != 0 || (!fixed.empty() && fixed[i] != 0);
+                             }),
               order.end());
   const std::size_t count = std::min(order.size(), order.size() / 20 + 1);
   for (std::size_t k = 0, d = 0; k < count && d < targets.size(); ++d) {
@@ -144,17 +151,18 @@ SiteCells site_cells(const mesh::Surface& surface, const std::vector<Vec3>& site
 }
 
 void localize_sites(const mesh::Surface& surface, std::vector<Vec3>& sites, SiteCells& cells,
-                    const parallel::Workers& workers, parallel::Monitor& monitor) {
+                    const parallel::Workers& workers, parallel::Monitor& monitor,
+                    std::span<const char> fixed) {
   std::size_t fewest = cells.defects.size();
   int fewest_at = 0;
   for (int step = 0; step < kMostSteps && step < fewest_at + kPatience; ++step) {
     if (!monitor.tick(0.8 * step / kMostSteps)) return;
     const rvd::CellSums sums = rvd::cell_sums(surface, sites, cells.diagram, cells.localized.owner);
-    if (!revive_empty_cells(surface, cells, sums, sites)) {
+    if (!revive_empty_cells(surface, cells, sums, fixed, sites)) {
       if (!cells.defects.empty() && step % kStepsPerRepair == kStepsPerRepair - 1) {
-        relocate(surface, cells, sums, sites);
+        relocate(surface, cells, sums, fixed, sites);
       } else {
-        lloyd_step(surface, cells, sums, sites);
+        lloyd_step(surface, cells, sums, fixed, sites);
       }
     }
     cells = site_cells(surface, sites, workers);

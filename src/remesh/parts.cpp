@@ -3,7 +3,9 @@
 #include "remesh/parts.h"
 
 #include <cmath>
+#include <utility>
 
+#include "features/crease_detection.h"
 #include "mesh/surface.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/normalization.h"
@@ -55,6 +57,29 @@ std::vector<Part> connected_parts(const TriangleMesh& mesh, std::span<const doub
     }
   }
   return parts;
+}
+
+void find_features(const TriangleMesh& mesh, const RemeshOptions& options,
+                   std::vector<Part>& parts) {
+  if (options.method != Method::Default) return;
+  features::EdgeFlags given(mesh.triangles.size(), 0);
+  if (options.features != Features::None)
+    features::flag_edges(mesh.triangles, static_cast<Index>(mesh.vertices.size()),
+                         options.feature_edges, given);
+  for (Part& part : parts) {
+    features::EdgeFlags flags;
+    for (const Index f : part.facet) flags.push_back(given[f]);
+    features::flag_boundaries(part.mesh.triangles, static_cast<Index>(part.mesh.vertices.size()),
+                              flags);
+    if (options.features == Features::Auto || options.features == Features::Dihedral) {
+      const mesh::Surface surface = normalize(part.mesh, 1).surface;
+      if (options.features == Features::Auto)
+        features::detect_creases(surface, flags);
+      else
+        features::flag_dihedral_angles(surface, options.feature_angle, flags);
+    }
+    if (features::any_feature(flags)) part.features = std::move(flags);
+  }
 }
 
 Index least_vertices(const std::vector<Part>& parts) {

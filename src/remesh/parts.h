@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "features/feature_edges.h"
 #include "nonobtuse/mesh.h"
+#include "nonobtuse/options.h"
 
 namespace nonobtuse::pipeline {
 
@@ -15,6 +17,7 @@ struct Part {
   std::vector<Index> facet;  ///< #F of the part: its triangle in the whole mesh
   double area = 0;
   std::vector<double> length;  ///< #V: target edge lengths, input units; empty if uniform
+  features::EdgeFlags features;  ///< #F: edges that are features; empty if there are none
   Index least = 4;  ///< vertices to give it at least: first what any surface of its topology needs
                     ///< (Heawood; 3 for a disc), then what was found to do
 };
@@ -22,6 +25,11 @@ struct Part {
 /// By lowest triangle index. The order of vertices and triangles is kept. The mesh must be clean.
 /// With target edge lengths (#V, else empty) `area` is the number of vertices they ask for.
 std::vector<Part> connected_parts(const TriangleMesh& mesh, std::span<const double> length = {});
+
+/// Sets the features of every part as the options say, boundaries among them. Throws InvalidInput
+/// for feature edges that are none.
+void find_features(const TriangleMesh& mesh, const RemeshOptions& options,
+                   std::vector<Part>& parts);
 
 /// Sum of `least` over the parts.
 Index least_vertices(const std::vector<Part>& parts);

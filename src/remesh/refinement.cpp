@@ -77,6 +77,7 @@ class Refinement {
     local.goal = goal;
     local.shape = energy::hinged(100, lo + 1, hi - 1);
     local.on_surface = options_.on_surface;
+    fidelity_.valences.measure(mesh_);
     refine::mend_valences(mesh_, fidelity_, local, false, workers_, [&] { return tick(0.75); });
     const Index outside =
         refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,

@@ -16,6 +16,7 @@
 #include "remesh/cvt_optimization.h"
 #include "remesh/error_bound.h"
 #include "remesh/extraction.h"
+#include "remesh/featured_part.h"
 #include "remesh/normalization.h"
 #include "remesh/paper_method.h"
 #include "remesh/parts.h"
@@ -78,6 +79,19 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const Reme
   return mesh;
 }
 
+// The same for a part with creases or boundaries; false if it has none.
+bool remesh_featured(const pipeline::Part& part, Index n, const RemeshOptions& options,
+                     const parallel::Workers& workers, pipeline::StageClock& clock,
+                     RemeshResult& result) {
+  if (part.features.empty()) return false;
+  const pipeline::FeaturePlan plan = pipeline::plan_features(part, n, options);
+  if (plan.graph.curves.empty()) return false;
+  pipeline::append_part(part, plan.input,
+                        pipeline::remesh_features(plan, n, options, workers, clock), workers,
+                        result);
+  return true;
+}
+
 // All parts with the vertices they were given; a part that needs more says so in `least`, and the
 // result is then incomplete.
 bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& vertices,
@@ -91,6 +105,7 @@ bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& 
     clock.begin_part(done, done + share);
     done += share;
     try {
+      if (remesh_featured(parts[c], vertices[c], options, workers, clock, result)) continue;
       pipeline::NormalizedInput input = pipeline::normalize(parts[c].mesh, vertices[c]);
       pipeline::set_sizes(parts[c].length, input);
       const mesh::EditableMesh mesh =
@@ -110,6 +125,8 @@ void find_least_vertices(std::vector<pipeline::Part>& parts, const RemeshOptions
   for (pipeline::Part& part : parts) {
     for (bool enough = false; !enough;) {
       try {
+        RemeshResult unused;
+        if (remesh_featured(part, part.least, options, workers, clock, unused)) break;
         pipeline::NormalizedInput input = pipeline::normalize(part.mesh, part.least);
         pipeline::set_sizes(part.length, input);
         sites_and_mesh(input.surface, part.least, options, workers, clock);
@@ -148,6 +165,7 @@ RemeshResult remesh_unbounded(const TriangleMesh& input, const RemeshOptions& op
   // Parts that turn out to need more vertices take them from the others, until all have enough or
   // there are no more to take.
   std::vector<pipeline::Part> parts = pipeline::connected_parts(input, field.length);
+  pipeline::find_features(input, options, parts);
   RemeshResult result;
   bool searched = false;
   do {

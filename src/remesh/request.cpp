@@ -53,6 +53,11 @@ void check_options(const RemeshOptions& options) {
   if (!(options.max_angle > 60 && options.max_angle <= 90))
     throw InvalidInput(
         fmt::format("the largest angle must be in (60, 90] degrees, not {}.", options.max_angle));
+  if (!(options.feature_angle > 0 && options.feature_angle <= 180))
+    throw InvalidInput(fmt::format("the feature angle must be in (0, 180] degrees, not {}.",
+                                   options.feature_angle));
+  if (options.features == Features::None && !options.feature_edges.empty())
+    throw InvalidInput("feature edges are given, but no features are asked for.");
   if (!(options.gradation > 0))
     throw InvalidInput(fmt::format("the gradation must be positive, not {}.", options.gradation));
   if (options.sizing != Sizing::Given && !options.target_lengths.empty())

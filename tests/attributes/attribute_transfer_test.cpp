@@ -153,6 +153,23 @@ TEST(TransferAttributes, SeamsStaySeams) {
   EXPECT_THROW(transfer_attributes(torus.mesh, torus.attributes, remeshed), InvalidInput);
 }
 
+// As features, borders of labels stay edges and areas stay what they are: exactly on a plane.
+TEST(TransferAttributes, BordersKeptAsFeaturesKeepTheAreasOfLabels) {
+  const TriangleMesh square = shapes::square(12);
+  MeshAttributes given;
+  for (const Triangle& t : square.triangles) {
+    const Vec3 c = (square.vertices[t[0]] + square.vertices[t[1]] + square.vertices[t[2]]) / 3;
+    given.labels.push_back(c.x < 0.5 ? 0 : c.y < 0.25 ? 1 : 2);
+  }
+  RemeshOptions options{.vertices = 300};
+  options.feature_edges = attribute_borders(square, given);
+  const RemeshResult result = remesh(square, options);
+  const MeshAttributes out = transfer_attributes(square, given, result);
+  const auto after = areas(result.mesh, out.labels);
+  for (const auto& [label, area] : areas(square, given.labels))
+    EXPECT_NEAR(after.at(label), area, 1e-6);
+}
+
 // Remeshed by itself, a mesh keeps everything: the seams lie on its edges.
 TEST(TransferAttributes, TheSameMeshKeepsEverything) {
   const Unwrapped torus;

@@ -11,6 +11,7 @@
 #include "refine/fidelity.h"
 #include "refine/global_descent.h"
 #include "refine/relaxation.h"
+#include "refine/sheet_separation.h"
 #include "remesh/refinement.h"
 #include "remesh/valence_optimization.h"
 
@@ -185,6 +186,9 @@ TEST(RefineCutSurfaces, AnglesBesideCreasesComeInsideTheBounds) {
     expect_in_place(o.cut.made.mesh, o.cut.curves, before);
     EXPECT_EQ(test::euler_characteristic(o.cut.made.mesh), 6);
     EXPECT_NO_THROW(o.cut.made.mesh.check_invariants());
+    const refine::Knots knots(o.cut.curves, o.cut.made.mesh);
+    const parallel::Workers workers(1);
+    EXPECT_TRUE(refine::crossing_triangles(o.cut.made.mesh, knots, workers).empty());
   }
 }
 

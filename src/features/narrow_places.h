@@ -1,0 +1,22 @@
+// Where feature curves come near each other, or bend within an edge length, edges must be shorter:
+// a side of a smooth curve needs two interior neighbours, so that a strip between two curves needs
+// at least one row of interior vertices.
+#pragma once
+
+#include <vector>
+
+#include "features/feature_edges.h"
+#include "features/feature_graph.h"
+#include "mesh/surface.h"
+
+namespace nonobtuse::features {
+
+/// #V: the longest target edge length (working units) that the features allow at a vertex, infinite
+/// where they do not matter at edge lengths of `h`. 0.7 w on both sides of a patch that is w wide
+/// there (of pairs of points, along straight lines into the patch; not of two curves that part
+/// from each other in a corner), and what gives short curves one segment, closed ones six. Only
+/// vertices on features get a bound; they should be less than h / 2 apart.
+std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
+                                  const FeatureGraph& graph, double h);
+
+}  // namespace nonobtuse::features
