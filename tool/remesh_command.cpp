@@ -44,6 +44,7 @@ void read_clean(const std::string& path, Outcome& outcome) {
   CleanResult cleaned = clean(read.mesh, read.attributes);
   outcome.repairs = std::move(read.repairs);
   outcome.repairs.insert(outcome.repairs.end(), cleaned.repairs.begin(), cleaned.repairs.end());
+  outcome.repairs.insert(outcome.repairs.end(), cleaned.kept.begin(), cleaned.kept.end());
   outcome.input = std::move(cleaned.mesh);
   outcome.attributes = std::move(cleaned.attributes);
 }

@@ -139,8 +139,7 @@ ResolvedSurface resolve_surface(const mesh::Surface& surface, const EdgeFlags& f
     std::vector<EdgeVertex> inserted =
         long_edges(facets.triangles, facets.flags, bound, feature_bound, vertices, size);
     if (inserted.empty()) break;
-    SplitFacets finer =
-        split_facets(vertices, facets.triangles, facets.flags, std::move(inserted));
+    SplitFacets finer = split_facets(vertices, facets.triangles, facets.flags, std::move(inserted));
     for (Index& f : finer.facet) f = facets.facet[f];
     facets = std::move(finer);
   }

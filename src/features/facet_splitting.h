@@ -28,7 +28,7 @@ SplitFacets split_facets(const std::vector<Vec3>& vertices, const std::vector<Tr
 
 /// A surface with short edges, for fields that vary on the scale of those.
 struct ResolvedSurface {
-  mesh::Surface surface;     ///< the old vertices come first
+  mesh::Surface surface;  ///< the old vertices come first
   EdgeFlags flags;
   std::vector<Index> facet;  ///< #F: of the surface it was made from
 };

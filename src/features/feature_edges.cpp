@@ -12,8 +12,7 @@ bool any_feature(const EdgeFlags& flags) {
   return std::any_of(flags.begin(), flags.end(), [](std::uint8_t f) { return f != 0; });
 }
 
-void flag_boundaries(const std::vector<Triangle>& triangles, Index vertex_count,
-                     EdgeFlags& flags) {
+void flag_boundaries(const std::vector<Triangle>& triangles, Index vertex_count, EdgeFlags& flags) {
   mesh::for_each_edge(mesh::edge_sides(triangles, vertex_count),
                       [&](const mesh::EdgeSide* first, const mesh::EdgeSide* last) {
                         if (last - first == 2) return;

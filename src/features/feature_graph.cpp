@@ -14,7 +14,7 @@ namespace {
 // A feature edge once, with its number of facets.
 struct GraphEdge {
   Index a = 0, b = 0;
-  bool boundary = false;
+  Index facets = 2;
   bool used = false;
 };
 
@@ -24,11 +24,12 @@ class Tracer {
     graph_.corner = std::move(corner);
     const auto vertices = static_cast<Index>(surface.vertices.size());
     graph_.corner.resize(vertices, 0);
-    mesh::for_each_edge(mesh::edge_sides(surface.triangles, vertices),
-                        [&](const mesh::EdgeSide* first, const mesh::EdgeSide* last) {
-                          if (flagged(flags, first->triangle, first->corner))
-                            edges_.push_back({first->low, first->high, last - first == 1});
-                        });
+    mesh::for_each_edge(
+        mesh::edge_sides(surface.triangles, vertices),
+        [&](const mesh::EdgeSide* first, const mesh::EdgeSide* last) {
+          if (flagged(flags, first->triangle, first->corner))
+            edges_.push_back({first->low, first->high, static_cast<Index>(last - first)});
+        });
     start_.assign(vertices + 1, 0);
     for (const GraphEdge& e : edges_) ++start_[e.a + 1], ++start_[e.b + 1];
     for (Index v = 0; v < vertices; ++v) start_[v + 1] += start_[v];
@@ -42,8 +43,7 @@ class Tracer {
       const Index degree = start_[v + 1] - start_[v];
       if (degree == 0)
         graph_.corner[v] = 0;
-      else if (degree != 2 ||
-               edges_[at_[start_[v]]].boundary != edges_[at_[start_[v] + 1]].boundary)
+      else if (degree != 2 || edges_[at_[start_[v]]].facets != edges_[at_[start_[v] + 1]].facets)
         graph_.corner[v] = 1;
     }
   }
@@ -63,7 +63,8 @@ class Tracer {
   void trace(Index v, Index e) {
     FeatureCurve curve;
     const Index first = v;
-    curve.boundary = edges_[e].boundary;
+    curve.facets = edges_[e].facets;
+    curve.boundary = curve.facets == 1;
     curve.vertices.push_back(v);
     for (;;) {
       edges_[e].used = true;
@@ -87,7 +88,7 @@ class Tracer {
   std::vector<Index> start_, at_;  // edges at each vertex
 };
 
-constexpr double kTurnScale = 0.75;    // of h: the half-length of the secants
+constexpr double kTurnScale = 0.75;     // of h: the half-length of the secants
 constexpr double kCosSharpTurn = 0.77;  // a little below 40 degrees
 constexpr double kCosVerySharp = 0.4;   // kept however near the next corner is
 constexpr double kCornerSpacing = 0.7;  // of h
@@ -243,7 +244,7 @@ bool prune_creases(const mesh::Surface& surface, double shortest, EdgeFlags& fla
       if (!c.closed) ++degree[c.vertices.front()], ++degree[c.vertices.back()];
     std::vector<std::array<Index, 2>> dropped;
     for (const FeatureCurve& c : graph.curves) {
-      if (c.closed || c.boundary) continue;
+      if (c.closed || c.facets != 2) continue;
       if (degree[c.vertices.front()] != 1 && degree[c.vertices.back()] != 1) continue;
       if (curve_lengths(surface, c).metric.back() >= shortest) continue;
       for (std::size_t i = 0; i + 1 < c.vertices.size(); ++i)

@@ -12,7 +12,9 @@ namespace nonobtuse::features {
 struct FeatureCurve {
   std::vector<Index> vertices;  ///< of the surface, in order; closed: the first is not repeated
   bool closed = false;
-  bool boundary = false;  ///< of edges with one facet (all of a curve's edges are of one kind)
+  Index facets = 2;       ///< at each of its edges, all alike: 1 at a boundary, 3 or more where
+                          ///< patches meet
+  bool boundary = false;  ///< of edges with one facet
 };
 
 struct FeatureGraph {
@@ -33,7 +35,8 @@ FeatureGraph feature_graph(const mesh::Surface& surface, const EdgeFlags& flags,
 std::vector<char> sharp_turns(const mesh::Surface& surface, const FeatureGraph& graph, double h);
 
 /// Takes the flags off creases that end in the surface and are shorter than `shortest` (times the
-/// local size), until there are none. Boundaries stay. Returns whether any went.
+/// local size), until there are none. Edges that have not two facets stay. Returns whether any
+/// went.
 bool prune_creases(const mesh::Surface& surface, double shortest, EdgeFlags& flags);
 
 /// Lengths along a curve: arc (from its first vertex, working units) and the same in the sizing

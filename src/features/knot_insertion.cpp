@@ -91,7 +91,8 @@ class Inserter {
 
   void add_vertex(Index a, Index b, double along) {
     const auto vertex = static_cast<Index>(out_.vertices.size());
-    on_edges_.push_back(a < b ? EdgeVertex{a, b, along, vertex} : EdgeVertex{b, a, 1 - along, vertex});
+    on_edges_.push_back(a < b ? EdgeVertex{a, b, along, vertex}
+                              : EdgeVertex{b, a, 1 - along, vertex});
     out_.vertices.push_back((1 - along) * surface_.vertices[a] + along * surface_.vertices[b]);
     if (!out_.size.empty())
       out_.size.push_back((1 - along) * surface_.size[a] + along * surface_.size[b]);
@@ -111,8 +112,7 @@ class Inserter {
 
 KnottedSurface insert_knots(const mesh::Surface& surface, const EdgeFlags& flags,
                             const FeatureGraph& graph, const std::vector<Index>& segments,
-                            const std::vector<char>& frozen, double snap,
-                            Index originals) {
+                            const std::vector<char>& frozen, double snap, Index originals) {
   return Inserter(surface, flags, graph, snap, originals).run(segments, frozen);
 }
 

@@ -13,14 +13,14 @@ namespace nonobtuse::features {
 
 /// A surface whose knots are vertices, not cut yet.
 struct KnottedSurface {
-  std::vector<Vec3> vertices;      ///< the surface's own first
-  std::vector<double> size;        ///< #V; empty if uniform
+  std::vector<Vec3> vertices;  ///< the surface's own first
+  std::vector<double> size;    ///< #V; empty if uniform
   std::vector<Triangle> triangles;
-  EdgeFlags flags;                 ///< #F
-  std::vector<Index> facet;        ///< #F: the facet of the surface it is a part of
-  std::vector<Index> knot;         ///< #V: -1 where there is none
+  EdgeFlags flags;           ///< #F
+  std::vector<Index> facet;  ///< #F: the facet of the surface it is a part of
+  std::vector<Index> knot;   ///< #V: -1 where there is none
   mesh::CurveNetwork network;
-  std::vector<Index> source;       ///< #knots: the vertex of the surface a knot is at; -1 elsewhere
+  std::vector<Index> source;  ///< #knots: the vertex of the surface a knot is at; -1 elsewhere
 };
 
 /// Knots: every corner (fixed), and on every curve as many as make segments[c] segments of equal
@@ -30,8 +30,7 @@ struct KnottedSurface {
 /// input's; others are on edges of it and neither frozen nor a source.
 KnottedSurface insert_knots(const mesh::Surface& surface, const EdgeFlags& flags,
                             const FeatureGraph& graph, const std::vector<Index>& segments,
-                            const std::vector<char>& frozen, double snap,
-                            Index originals);
+                            const std::vector<char>& frozen, double snap, Index originals);
 
 /// The surface cut open: a vertex on features once per sector between them.
 struct CutSurface {

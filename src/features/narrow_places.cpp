@@ -18,7 +18,7 @@ namespace nonobtuse::features {
 namespace {
 
 constexpr double kOfWidth = 0.7;
-constexpr double kWedge = 4;    // paths along curves shorter than this many distances: a corner
+constexpr double kWedge = 4;      // paths along curves shorter than this many distances: a corner
 constexpr double kInwards = 0.3;  // cosine: how squarely the other curve is faced
 constexpr double kClosedSegments = 6;
 constexpr double kTurnSegments = 8;
@@ -179,8 +179,8 @@ class WidthFinder {
 // Segments that a curve needs to keep its shape.
 double least_segments(const mesh::Surface& surface, const FeatureCurve& curve, double length) {
   if (curve.closed || curve.vertices.front() == curve.vertices.back()) return kClosedSegments;
-  const double chord = distance(surface.vertices[curve.vertices.front()],
-                                surface.vertices[curve.vertices.back()]);
+  const double chord =
+      distance(surface.vertices[curve.vertices.front()], surface.vertices[curve.vertices.back()]);
   return std::max(1.0, std::ceil(kTurnSegments * (1 - chord / length) - 0.1));
 }
 

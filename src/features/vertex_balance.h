@@ -13,17 +13,17 @@ namespace nonobtuse::features {
 inline constexpr double kCurveSpacing = 1.1;
 
 struct CurveDemand {
-  double length = 0;           ///< in the sizing metric
-  Index least = 1;             ///< segments it needs at least
-  Index fixed = 0;             ///< segments it has, whatever its length; 0: free
+  double length = 0;  ///< in the sizing metric
+  Index least = 1;    ///< segments it needs at least
+  Index fixed = 0;    ///< segments it has, whatever its length; 0: free
   bool closed = false;
   std::vector<Index> patches;  ///< that it bounds, one entry per side
 };
 
 struct PatchDemand {
-  double area = 0;   ///< in the sizing metric
-  Index euler = 1;   ///< Euler characteristic
-  Index least = 0;   ///< interior vertices it needs at least
+  double area = 0;  ///< in the sizing metric
+  Index euler = 1;  ///< Euler characteristic
+  Index least = 0;  ///< interior vertices it needs at least
 };
 
 struct VertexBalance {

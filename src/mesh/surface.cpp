@@ -33,18 +33,15 @@ std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>
               [&](const auto& a, const auto& b) {
                 return std::pair(upper(a), a) < std::pair(upper(b), b);
               });
-    for (std::size_t i = start[v]; i < start[v + 1]; ++i) {
+    std::size_t end = start[v];
+    for (std::size_t i = start[v]; i < start[v + 1]; i = end) {
+      while (end < start[v + 1] && upper(half_edges[end]) == upper(half_edges[i])) ++end;
+      if (end - i != 2) continue;
       const auto [t, k] = half_edges[i];
-      const Triangle& a = triangles[t];
-      for (std::size_t j = i + 1; j < start[v + 1] && upper(half_edges[j]) == upper(half_edges[i]);
-           ++j) {
-        const auto [u, l] = half_edges[j];
-        const Triangle& b = triangles[u];
-        const bool opposite = a[next(k)] == b[previous(l)] && a[previous(k)] == b[next(l)];
-        if (!opposite) continue;
-        adjacent[t][k] = u;
-        adjacent[u][l] = t;
-      }
+      const auto [u, l] = half_edges[i + 1];
+      if (triangles[t][next(k)] != triangles[u][previous(l)]) continue;  // the same way round
+      adjacent[t][k] = u;
+      adjacent[u][l] = t;
     }
   }
   return adjacent;

@@ -14,8 +14,9 @@ namespace nonobtuse::mesh {
 constexpr int next(int k) { return k == 2 ? 0 : k + 1; }
 constexpr int previous(int k) { return k == 0 ? 2 : k - 1; }
 
-/// adjacent[t][k]: triangle across edge k of t, or -1 at the boundary. The mesh must be manifold
-/// along edges and consistently oriented. O(#F log #F), deterministic.
+/// adjacent[t][k]: triangle across edge k of t, or -1 at the boundary, at edges of three or more
+/// triangles and where the two triangles of an edge run along it the same way. O(#F log #F),
+/// deterministic.
 std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>& triangles,
                                                      Index vertex_count);
 

@@ -60,8 +60,7 @@ void append_part(const Part& part, const NormalizedInput& input, const GluedMesh
   const auto first = static_cast<Index>(result.mesh.vertices.size());
   append(part, input, glued.mesh, workers, result);
   for (std::size_t v = 0; v < glued.source.size(); ++v)
-    if (glued.source[v] >= 0)
-      result.mesh.vertices[first + v] = part.mesh.vertices[glued.source[v]];
+    if (glued.source[v] >= 0) result.mesh.vertices[first + v] = part.mesh.vertices[glued.source[v]];
   for (const std::array<Index, 2>& e : glued.feature_edges)
     result.feature_edges.push_back({e[0] + first, e[1] + first});
 }

@@ -278,7 +278,7 @@ class FeaturedPart {
 class Planner {
  public:
   Planner(const Part& part, Index vertices, const RemeshOptions& options)
-      : vertices_(vertices), options_(options) {
+      : vertices_(vertices), options_(options), points_(part.points) {
     plan_.input = normalize(part.mesh, vertices);
     plan_.originals = static_cast<Index>(plan_.input.surface.vertices.size());
     set_sizes(part.length, plan_.input);
@@ -289,9 +289,9 @@ class Planner {
   FeaturePlan run() {
     features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
     plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
-    if (plan_.graph.curves.empty()) return std::move(plan_);
-    plan_.graph = features::feature_graph(
-        plan_.surface, plan_.flags, features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
+    if (plan_.graph.curves.empty() && points_.empty()) return std::move(plan_);
+    plan_.graph = graph(plan_.surface, plan_.flags,
+                        features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
     find_frozen();
     find_sizes();
     balance();
@@ -299,6 +299,17 @@ class Planner {
   }
 
  private:
+  // With the points in which patches touch among its corners.
+  [[nodiscard]] features::FeatureGraph graph(const mesh::Surface& surface,
+                                             const features::EdgeFlags& flags,
+                                             std::vector<char> corner) const {
+    corner.resize(surface.vertices.size(), 0);
+    for (const Index v : points_) corner[v] = 1;
+    features::FeatureGraph result = features::feature_graph(surface, flags, std::move(corner));
+    for (const Index v : points_) result.corner[v] = 1;
+    return result;
+  }
+
   void find_frozen() {
     plan_.frozen.clear();
     for (const features::FeatureCurve& c : plan_.graph.curves)
@@ -322,8 +333,7 @@ class Planner {
             : *std::max_element(plan_.surface.size.begin(), plan_.surface.size.end());
     features::ResolvedSurface fine = features::resolve_surface(
         plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
-    features::FeatureGraph graph =
-        features::feature_graph(fine.surface, fine.flags, plan_.graph.corner);
+    features::FeatureGraph graph = this->graph(fine.surface, fine.flags, plan_.graph.corner);
     const std::vector<double> bounds =
         features::narrow_places(fine.surface, fine.flags, graph, largest * kEdgeLength);
     const std::vector<double> asked = fine.surface.size;
@@ -392,6 +402,7 @@ class Planner {
 
   Index vertices_;
   const RemeshOptions& options_;
+  const std::vector<Index>& points_;
   FeaturePlan plan_;
 };
 

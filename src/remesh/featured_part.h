@@ -17,13 +17,13 @@ namespace nonobtuse::pipeline {
 /// What is settled before anything is sampled.
 struct FeaturePlan {
   NormalizedInput input;
-  Index originals = 0;            ///< vertices of `surface` that are the input's, the first ones
-  mesh::Surface surface;          ///< the input, with its sizes; where features are near each other
-                                  ///< with short edges, so that sizes can follow them
-  features::EdgeFlags flags;      ///< of the surface's facets, without stubs too short to mesh
-  features::FeatureGraph graph;   ///< on the surface
+  Index originals = 0;           ///< vertices of `surface` that are the input's, the first ones
+  mesh::Surface surface;         ///< the input, with its sizes; where features are near each other
+                                 ///< with short edges, so that sizes can follow them
+  features::EdgeFlags flags;     ///< of the surface's facets, without stubs too short to mesh
+  features::FeatureGraph graph;  ///< on the surface
   features::VertexBalance balance;
-  std::vector<char> frozen;       ///< #curves: every vertex of it stays where it is
+  std::vector<char> frozen;  ///< #curves: every vertex of it stays where it is
 };
 
 /// Curves, corners and the share of each curve and patch of `vertices`. Throws TooFewVertices.

@@ -114,11 +114,10 @@ void relocate(const mesh::Surface& surface, const SiteCells& cells, const rvd::C
     if (std::any_of(t.begin(), t.end(), [&](Index v) { return busy[v] == 1; }))
       for (const Index v : t) busy[v] = std::max<char>(busy[v], 2);
   std::vector<Index> order = by_mass(sums);
-  order.erase(std::remove_if(order.begin(), order.end(),
-                             [&](Index i) {
-                               return busy[i] != 0 || (!fixed.empty() && fixed[i] != 0);
-                             }),
-              order.end());
+  order.erase(
+      std::remove_if(order.begin(), order.end(),
+                     [&](Index i) { return busy[i] != 0 || (!fixed.empty() && fixed[i] != 0); }),
+      order.end());
   const std::size_t count = std::min(order.size(), order.size() / 20 + 1);
   for (std::size_t k = 0, d = 0; k < count && d < targets.size(); ++d) {
     const bool crowded = std::any_of(targets.begin(), targets.begin() + d, [&](const Vec3& p) {

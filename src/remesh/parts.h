@@ -1,4 +1,5 @@
-// A surface taken apart into its connected components. Each is remeshed on its own: sites of one
+// A surface taken apart into its connected components (what meets along an edge or in a vertex is
+// connected). Each is remeshed on its own: sites of one
 // component can then never own a part of another, however close, nested or crossing they are
 // (localized cells between components, by construction).
 #pragma once
@@ -16,8 +17,9 @@ struct Part {
   TriangleMesh mesh;
   std::vector<Index> facet;  ///< #F of the part: its triangle in the whole mesh
   double area = 0;
-  std::vector<double> length;  ///< #V: target edge lengths, input units; empty if uniform
+  std::vector<double> length;    ///< #V: target edge lengths, input units; empty if uniform
   features::EdgeFlags features;  ///< #F: edges that are features; empty if there are none
+  std::vector<Index> points;     ///< vertices in which several fans of triangles touch: kept
   Index least = 4;  ///< vertices to give it at least: first what any surface of its topology needs
                     ///< (Heawood; 3 for a disc), then what was found to do
 };

@@ -18,7 +18,7 @@ struct Patch {
   std::vector<Index> facet;  ///< #F: facet of the whole cut surface
   std::vector<Index> knot;   ///< #V: which knot a vertex is, -1 for none
   Index euler = 1;
-  Index interior = 0;        ///< vertices it is to have besides the knots
+  Index interior = 0;  ///< vertices it is to have besides the knots
 };
 
 struct PatchMesh {

@@ -85,7 +85,7 @@ bool remesh_featured(const pipeline::Part& part, Index n, const RemeshOptions& o
                      RemeshResult& result) {
   if (part.features.empty()) return false;
   const pipeline::FeaturePlan plan = pipeline::plan_features(part, n, options);
-  if (plan.graph.curves.empty()) return false;
+  if (plan.graph.curves.empty() && part.points.empty()) return false;
   pipeline::append_part(part, plan.input,
                         pipeline::remesh_features(plan, n, options, workers, clock), workers,
                         result);
@@ -192,7 +192,7 @@ RemeshResult remesh_unbounded(const TriangleMesh& input, const RemeshOptions& op
 RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
                     const Context& context) {
   pipeline::check_options(options);
-  pipeline::check_input(input);
+  pipeline::check_input(input, options.method);
   if (pipeline::error_bound(input, options) <= 0) return remesh_unbounded(input, options, context);
   return pipeline::remesh_within(input, options, context,
                                  [&](const RemeshOptions& with, const Context& within) {

@@ -81,13 +81,13 @@ void check_options(const RemeshOptions& options) {
     throw InvalidInput("iterations are counted by the paper's methods only.");
 }
 
-void check_input(const TriangleMesh& input) {
+void check_input(const TriangleMesh& input, Method method) {
   const CleanResult cleaned = clean(input);
-  if (!cleaned.kept.empty()) {
+  if (!cleaned.kept.empty() && method != Method::Default) {
     const Repair& first = cleaned.kept.front();
     throw InvalidInput(
-        fmt::format("the surface is no manifold ({}: {}, the first at index {}); part "
-                    "it there first.",
+        fmt::format("the paper's methods need a manifold ({}: {}, the first at index {}); the "
+                    "default method does not.",
                     first.what, first.count, first.first),
         first.first);
   }

@@ -13,8 +13,8 @@ namespace nonobtuse::pipeline {
 void check_options(const RemeshOptions& options);
 
 /// Throws InvalidInput for whatever `clean` would refuse or repair: remeshing never repairs
-/// silently.
-void check_input(const TriangleMesh& input);
+/// silently. The paper's methods need a manifold.
+void check_input(const TriangleMesh& input, Method method);
 
 /// The distance that the result must keep to, input units; 0 for none.
 double error_bound(const TriangleMesh& input, const RemeshOptions& options);
