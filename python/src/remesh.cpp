@@ -137,7 +137,7 @@ nb::dict to_dict(const SizeRatio& ratio) {
   return d;
 }
 
-nb::list to_list(const std::vector<IterationRecord>& history) {
+nb::list history_list(const std::vector<IterationRecord>& history) {
   nb::list list;
   for (const IterationRecord& record : history) {
     nb::dict entry;
@@ -183,7 +183,7 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["stages"] = stages;
   d["size_ratio"] = to_dict(result.size_ratio);
   d["max_error"] = result.max_error;
-  d["history"] = to_list(result.history);
+  d["history"] = history_list(result.history);
   d["repairs"] = to_list(outcome.repairs);
   d["repaired"] = outcome.repairs.empty()
                       ? nb::none()
