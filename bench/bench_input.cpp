@@ -24,6 +24,7 @@ const BenchInput& bench_input() {
     const Context context;
     parallel::Monitor monitor(context);
     const parallel::Workers workers(1);
+    made.bvh = spatial::TriangleBvh(made.surface.vertices, made.surface.triangles, workers);
     made.sites = pipeline::optimize_cvt(made.surface, {.sites = n}, workers, monitor);
     return made;
   }();

@@ -5,12 +5,14 @@
 
 #include "mesh/surface.h"
 #include "nonobtuse/mesh.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::bench {
 
 struct BenchInput {
   TriangleMesh mesh;      ///< cleaned input
   mesh::Surface surface;  ///< working coordinates
+  spatial::TriangleBvh bvh;
   std::vector<Vec3> sites;
 };
 

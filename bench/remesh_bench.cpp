@@ -36,7 +36,7 @@ void valence_optimization(benchmark::State& state) {
   const mesh::EditableMesh start = extracted(workers, monitor);
   for (auto _ : state) {
     mesh::EditableMesh mesh = start;
-    pipeline::optimize_valence(bench_input().surface, mesh, workers, monitor);
+    pipeline::optimize_valence(bench_input().surface, bench_input().bvh, mesh, workers, monitor);
   }
 }
 BENCHMARK(valence_optimization)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -46,10 +46,10 @@ void refinement(benchmark::State& state) {
   const Context context;
   parallel::Monitor monitor(context);
   mesh::EditableMesh start = extracted(workers, monitor);
-  pipeline::optimize_valence(bench_input().surface, start, workers, monitor);
+  pipeline::optimize_valence(bench_input().surface, bench_input().bvh, start, workers, monitor);
   for (auto _ : state) {
     mesh::EditableMesh mesh = start;
-    pipeline::refine(bench_input().surface, mesh, {}, workers, monitor);
+    pipeline::refine(bench_input().surface, bench_input().bvh, mesh, {}, workers, monitor);
   }
 }
 BENCHMARK(refinement)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();

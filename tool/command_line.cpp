@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "nonobtuse/version.h"
+#include "report_file.h"
 
 namespace nonobtuse::tool {
 namespace {
@@ -74,6 +75,18 @@ void check_output(const OutputOptions& output) {
     throw UsageError(fmt::format("the folder of the output '{}' does not exist", output.path));
   if (std::filesystem::is_directory(output.path, error))
     throw UsageError(fmt::format("the output '{}' is a folder, not a file", output.path));
+}
+
+void check_report(const std::string& path) {
+  if (path.empty()) return;
+  if (!is_html(path) && !is_json(path))
+    throw UsageError(fmt::format("the name of the report '{}' must end in .html or .json", path));
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+    throw UsageError(fmt::format("the folder of the report '{}' does not exist", path));
+  if (std::filesystem::is_directory(path, error))
+    throw UsageError(fmt::format("the report '{}' is a folder, not a file", path));
 }
 
 double parse_number(const std::string& text, const std::string& whole, const char* option) {
@@ -289,6 +302,11 @@ void add_remesh(CLI::App& app, Draft& draft) {
   add_threads(command, c.threads);
   command.add_flag("--no-distance", c.no_distance,
                    "Do not measure the distance between input and result for the table");
+  command
+      .add_option("--report", c.report,
+                  "Also write a report: .html, one page with both surfaces, figures and places; "
+                  ".json, its data (docs/json.md)")
+      ->type_name("FILE");
   command.add_flag("--quiet", c.quiet, "Print nothing but errors");
   command.add_flag("--progress", c.progress,
                    "Report progress on stderr even if that is no terminal");
@@ -382,11 +400,13 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
     options.boundary = parse_boundary(draft.boundary);
     if (options.iterations > 0 && options.method == Method::Default)
       throw UsageError("--iterations is for the methods cvt, cvt-fs and cvt-nob only");
-    if (options.history && !draft.remesh.json)
-      throw UsageError("--history adds to the JSON report: give --json too");
+    if (options.history && !draft.remesh.json && draft.remesh.report.empty())
+      throw UsageError("--history adds to the JSON report: give --json or --report too");
+    if (!draft.remesh.report.empty()) options.history = true;
     check_bounds(options.min_angle, options.max_angle);
     if (options.min_angle >= 60) throw UsageError("--min-angle must be below 60");
     check_output(draft.remesh.output);
+    check_report(draft.remesh.report);
     line.remesh = draft.remesh;
   } else if (app.got_subcommand("measure")) {
     line.measure = draft.measure;
@@ -401,6 +421,26 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
     line.sample = draft.sample;
   }
   return line;
+}
+
+// The command line in one line, for a shell.
+std::string as_typed(int argc, const char* const* argv) {
+  std::string text = "nonobtuse";
+  for (int k = 1; k < argc; ++k) {
+    const std::string_view word = argv[k];
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+      return std::isalnum(c) != 0 ||
+             std::string_view("-_./,:=+%@").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (plain) {
+      text += fmt::format(" {}", word);
+      continue;
+    }
+    text += " '";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += "'";
+  }
+  return text;
 }
 
 // CLI11's sentence in our form: lower case, no full stop, one line.
@@ -431,7 +471,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   try {
     app.parse(arguments);
-    return checked(app, draft);
+    line = checked(app, draft);
+    if (line.remesh) line.remesh->command_line = as_typed(argc, argv);
+    return line;
   } catch (const CLI::CallForHelp&) {
     line.message = app.help();
   } catch (const CLI::CallForVersion& version) {

@@ -152,6 +152,15 @@ Json to_json(const SizeRatio& ratio) {
           {"percentile_95", ratio.percentile_95}};
 }
 
+Json to_json(const std::vector<NarrowCorner>& corners) {
+  Json list = Json::array();
+  for (const NarrowCorner& corner : corners)
+    list.push_back({{"vertex", corner.vertex},
+                    {"input_angle", corner.input_angle},
+                    {"reached_angle", corner.reached_angle}});
+  return list;
+}
+
 Json to_json(const RemeshOptions& options) {
   return {{"vertices", options.vertices},
           {"edge_length", options.edge_length},

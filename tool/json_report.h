@@ -24,6 +24,7 @@ Json to_json(const std::vector<Repair>& repairs);
 Json to_json(const std::vector<StageTime>& stages);
 Json to_json(const std::vector<IterationRecord>& history);
 Json to_json(const SizeRatio& ratio);
+Json to_json(const std::vector<NarrowCorner>& corners);
 Json to_json(const RemeshOptions& options);
 
 /// `text` that is not UTF-8 (a file name may be anything) is mended instead of refused.

@@ -16,13 +16,16 @@
 #include "nonobtuse/io.h"
 #include "nonobtuse/quality.h"
 #include "nonobtuse/remesh.h"
+#include "nonobtuse/version.h"
 #include "progress_bar.h"
+#include "report_file.h"
 #include "table.h"
 
 namespace nonobtuse::tool {
 namespace {
 
 constexpr Index kTrianglesNamed = 5;
+constexpr Index kTrianglesListed = 1000;  // of each kind, in a report
 // Above this many triangles, the distance would take longer than people wait for a table.
 constexpr std::size_t kDistanceLimit = 400'000;
 
@@ -88,14 +91,16 @@ std::vector<std::array<Index, 2>> read_edges(const std::string& path) {
 RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMesh& input,
                                   const MeshAttributes& attributes,
                                   const std::atomic<bool>& interrupted) {
-  ProgressBar bar(progress_style(command.progress, command.quiet));
+  const ProgressStyle style = progress_style(command.progress, command.quiet);
+  ProgressBar bar(style);
   Context context;
   context.threads = command.threads;
   context.cancel = &interrupted;
-  context.progress = [&bar](const Progress& progress) {
-    bar.show(progress);
-    return true;
-  };
+  if (style != ProgressStyle::None)
+    context.progress = [&bar](const Progress& progress) {
+      bar.show(progress);
+      return true;
+    };
   RemeshOptions options = command.options;
   if (!command.sizes.empty()) options.target_lengths = read_lengths(command.sizes);
   if (!command.feature_edges.empty()) options.feature_edges = read_edges(command.feature_edges);
@@ -107,7 +112,10 @@ RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMe
 
 int exit_code_of(const Outcome& outcome) {
   if (outcome.result.status == Status::Cancelled) return kCancelled;
-  return outcome.goal.certified ? kDone : kAnglesRemain;
+  return certified_but_for_narrow_corners(outcome.written, outcome.goal,
+                                          outcome.result.narrow_corners)
+             ? kDone
+             : kAnglesRemain;
 }
 
 const char* status_name(int code) {
@@ -115,7 +123,8 @@ const char* status_name(int code) {
   return code == kDone ? "converged" : "angles_remain";
 }
 
-void print_json(const RemeshCommand& command, const Outcome& outcome, int code) {
+// At most `named` triangles of each kind are named.
+Json json_of(const RemeshCommand& command, const Outcome& outcome, int code, Index named) {
   Json json{{"command", "remesh"},
             {"input", command.input},
             {"output", command.output.path},
@@ -128,14 +137,51 @@ void print_json(const RemeshCommand& command, const Outcome& outcome, int code) 
             {"after", to_json(measure_angles(outcome.written))},
             {"after_vertices", outcome.written.vertices.size()},
             {"size_ratio", to_json(outcome.result.size_ratio)},
-            {"goal", to_json(outcome.goal, outcome.written, kTrianglesNamed)},
-            {"promise", to_json(outcome.promise, outcome.written, kTrianglesNamed)},
+            {"narrow_corners", to_json(outcome.result.narrow_corners)},
+            {"goal", to_json(outcome.goal, outcome.written, named)},
+            {"promise", to_json(outcome.promise, outcome.written, named)},
             {"seconds", outcome.seconds},
             {"stages", to_json(outcome.result.stages)}};
   if (outcome.result.max_error > 0) json["max_error"] = outcome.result.max_error;
   if (command.options.history) json["history"] = to_json(outcome.result.history);
   if (outcome.distance) json["distance"] = to_json(*outcome.distance);
-  fmt::print("{}", dump(json));
+  return json;
+}
+
+// All of the above, and what a page needs to show it.
+Json full_report(const RemeshCommand& command, const Outcome& outcome, int code) {
+  Json json{{"version", NONOBTUSE_VERSION}, {"command_line", command.command_line}};
+  json.update(json_of(command, outcome, code, kTrianglesListed));
+  json["before_topology"] = to_json(measure_topology(outcome.input));
+  json["after_topology"] = to_json(measure_topology(outcome.written));
+  Context context;
+  context.threads = command.threads;
+  std::vector<double> to_result, to_input;
+  if (outcome.distance) {
+    json["self_intersections"] = count_self_intersections(outcome.written, context);
+    to_result = vertex_distances(outcome.input, outcome.written, context);
+    to_input = vertex_distances(outcome.written, outcome.input, context);
+  }
+  const Vec3 origin = middle_of(outcome.input);
+  json["feature_edges"] = outcome.result.feature_edges;
+  json["meshes"] = {{"before", packed_mesh(outcome.input, origin, to_result)},
+                    {"after", packed_mesh(outcome.written, origin, to_input)}};
+  return json;
+}
+
+// Corners of the input that no mesh can keep and yet have good angles.
+void print_narrow_corners(const Outcome& outcome) {
+  const std::vector<NarrowCorner>& corners = outcome.result.narrow_corners;
+  if (corners.empty()) return;
+  fmt::print("{} of the input have a face angle below 30 degrees, which any mesh keeps:\n",
+             corners.size() == 1 ? "1 corner" : fmt::format("{} corners", corners.size()));
+  for (std::size_t i = 0; i < corners.size() && i < kTrianglesNamed; ++i) {
+    const Vec3& p = outcome.written.vertices[corners[i].vertex];
+    fmt::print("  vertex {} at ({:.6g}, {:.6g}, {:.6g}): {:.4f} in the input, {:.4f} reached\n",
+               corners[i].vertex, p.x, p.y, p.z, corners[i].input_angle, corners[i].reached_angle);
+  }
+  if (!outcome.goal.certified && exit_code_of(outcome) == kDone)
+    fmt::print("every triangle outside the bounds touches one of them\n");
 }
 
 void print_table(const RemeshCommand& command, const Outcome& outcome) {
@@ -156,6 +202,7 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
   const CertificateBounds& goal = outcome.goal.bounds;
   if (!outcome.goal.certified && (goal.min_angle != 30 || goal.max_angle != 90))
     fmt::print("{}", certificate_text(path, outcome.written, outcome.promise, 0));
+  print_narrow_corners(outcome);
   if (outcome.result.status == Status::Cancelled) fmt::print("cancelled: the best mesh so far\n");
   if (!command.no_distance && !outcome.distance && outcome.result.status != Status::Cancelled)
     fmt::print(
@@ -188,16 +235,17 @@ int run(const RemeshCommand& command) {
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const int code = exit_code_of(outcome);
-  if (command.quiet && !command.json) return code;
+  if (command.quiet && !command.json && command.report.empty()) return code;
   const std::size_t triangles = outcome.input.triangles.size() + outcome.written.triangles.size();
   if (!command.no_distance && code != kCancelled && triangles <= kDistanceLimit) {
     Context context;
     context.threads = command.threads;
     outcome.distance = measure_distance(outcome.written, outcome.input, context);
   }
+  if (!command.report.empty()) write_report(command.report, full_report(command, outcome, code));
   if (command.json) {
-    print_json(command, outcome, code);
-  } else {
+    fmt::print("{}", dump(json_of(command, outcome, code, kTrianglesNamed)));
+  } else if (!command.quiet) {
     print_table(command, outcome);
   }
   return code;

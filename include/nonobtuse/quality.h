@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "nonobtuse/context.h"
 #include "nonobtuse/mesh.h"
@@ -73,5 +74,10 @@ Topology measure_topology(const TriangleMesh& mesh);
 SurfaceDistance measure_distance(const TriangleMesh& mesh, const TriangleMesh& reference,
                                  const Context& context = {});
 Index count_self_intersections(const TriangleMesh& mesh, const Context& context = {});
+
+/// #V: distance of every vertex of `mesh` to the surface of `reference`, in input units; exact
+/// closest points. Throws like `measure`, and if one of the two has no triangles. Thread-safe.
+std::vector<double> vertex_distances(const TriangleMesh& mesh, const TriangleMesh& reference,
+                                     const Context& context = {});
 
 }  // namespace nonobtuse

@@ -69,4 +69,9 @@ struct RemeshResult {
   std::vector<IterationRecord> history;      ///< with RemeshOptions::history, in order; else empty
 };
 
+/// Whether a mesh is inside the bounds of its certificate, or all triangles outside touch one of
+/// `corners`. What is meant by Status::Converged, for a mesh as it was written.
+bool certified_but_for_narrow_corners(const TriangleMesh& mesh, const Certificate& certificate,
+                                      const std::vector<NarrowCorner>& corners);
+
 }  // namespace nonobtuse

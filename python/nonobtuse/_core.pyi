@@ -29,6 +29,15 @@ def measure(
     threads: int,
     /,
 ) -> dict[str, Any]: ...
+def vertex_distances(
+    vertices: _Points,
+    faces: _Indices,
+    reference_vertices: _Points,
+    reference_faces: _Indices,
+    threads: int,
+    /,
+) -> _Points: ...
+def topology(vertices: _Points, faces: _Indices, /) -> dict[str, Any]: ...
 def certify(
     vertices: _Points, faces: _Indices, min_angle: float, max_angle: float, /
 ) -> tuple[float, float, bool, int, _Indices, _Indices]: ...
@@ -68,3 +77,9 @@ def restricted_delaunay(
 def cvt_energy(
     vertices: _Points, faces: _Indices, sites: _Points, threads: int, /
 ) -> tuple[float, _Points, _Points, _Points]: ...
+def local_feature_size(
+    vertices: _Points, faces: _Indices, samples: int, threads: int, /
+) -> _Points: ...
+def detect_features(
+    vertices: _Points, faces: _Indices, angle: float | None, /
+) -> _Indices: ...

@@ -5,9 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from . import _arrays, _attributes, _core
+from . import _arrays, _attributes, _core, _quality
 from ._errors import Cancelled, InvalidInput
 from ._results import Certificate, Mesh, Report, Result, Status
 
@@ -15,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Literal
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
     from ._attributes import Attributes
 
@@ -23,7 +21,6 @@ _METHODS = ("default", "cvt", "cvt-fs", "cvt-nob")
 _SIZINGS = ("uniform", "lfs", "curvature", "given")
 _FEATURES = ("auto", "none", "dihedral", "given")
 _BOUNDARIES = ("resample", "freeze")
-_NAMED = 5  # triangles that a report names
 
 
 def remesh(
@@ -227,8 +224,8 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         before_vertices=len(result.source.vertices),
         after=outcome["after"],
         after_vertices=len(result.vertices),
-        goal=_certificate_report(result.goal, result.mesh),
-        promise=_certificate_report(result.certificate, result.mesh),
+        goal=_quality.certificate_report(result.goal, result.mesh),
+        promise=_quality.certificate_report(result.certificate, result.mesh),
         seconds=time.perf_counter() - start,
         stages=outcome["stages"],
         size_ratio=outcome["size_ratio"],
@@ -238,31 +235,7 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         result.report["max_error"] = outcome["max_error"]
     if options["history"]:
         result.report["history"] = outcome["history"]
+    result.report._outcome = (
+        result.source, result.mesh, result.goal, result.certificate, result.feature_edges,
+    )  # fmt: skip
     return result
-
-
-def _certificate_report(certificate: Certificate, mesh: Mesh) -> dict[str, Any]:
-    report: dict[str, Any] = {
-        "min_angle": certificate.min_angle,
-        "max_angle": certificate.max_angle,
-        "certified": certificate.certified,
-        "triangles": certificate.triangles,
-    }
-    for name in ("too_large", "too_small"):
-        triangles = getattr(certificate, name)
-        report[name] = len(triangles)
-        report["worst_" + name] = [
-            {"triangle": int(t), "smallest_angle": a[0], "largest_angle": a[2]}
-            for t in triangles[:_NAMED]
-            for a in [_angles(mesh.vertices[mesh.faces[t]])]
-        ]
-    return report
-
-
-def _angles(corners: NDArray[np.float64]) -> list[float]:
-    """The three angles of one triangle, degrees, ascending."""
-    u = np.roll(corners, -1, axis=0) - corners
-    v = np.roll(corners, -2, axis=0) - corners
-    areas = np.linalg.norm(np.cross(u, v), axis=1)
-    angles: list[float] = np.sort(np.degrees(np.arctan2(areas, (u * v).sum(axis=1)))).tolist()
-    return angles

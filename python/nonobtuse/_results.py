@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
+    import os
+
     from numpy.typing import NDArray
 
     from ._attributes import Attributes
@@ -29,6 +31,35 @@ class Report(dict[str, Any]):
         import json
 
         return json.dumps(self, indent=indent)
+
+    def to_html(self) -> str:
+        """One page to look at, which needs no network: both surfaces side by side, histograms,
+        figures, convergence (with ``history=True``), certificate and the places that miss a bound.
+
+        Of the report of `remesh` only; others know no surfaces.
+        """
+        from . import _report
+
+        return _report.page(self._full())
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the page of `to_html` (.html) or all that it shows as data (.json: docs/json.md,
+        the report), like ``nonobtuse remesh --report``."""
+        from . import _report
+
+        _report.save(path, self._full())
+
+    #: (source, mesh, goal, certificate, feature edges) of the call
+    _outcome: (
+        tuple[Mesh, Mesh, Certificate, Certificate, NDArray[np.int32]] | None
+    ) = None
+
+    def _full(self) -> dict[str, Any]:
+        from . import _report
+
+        if self._outcome is None:
+            raise TypeError("This report holds no surfaces to show; that of remesh does.")
+        return _report.full_report(self, *self._outcome)
 
 
 class Mesh(tuple["NDArray[np.float64]", "NDArray[np.int32]"]):

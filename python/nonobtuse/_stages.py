@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _arrays, _core
+from ._errors import InvalidInput
 
 if TYPE_CHECKING:
     import numpy as np
@@ -103,3 +104,42 @@ def cvt_energy(
             _arrays.whole_number(threads, "threads"),
         )
     )
+
+
+def local_feature_size(
+    vertices: ArrayLike, faces: ArrayLike, *, samples: int = 10_000, threads: int = 0
+) -> NDArray[np.float64]:
+    """(n,): the distance of every vertex to the medial axis (Amenta and Bern 1999), input units.
+
+    The mesh must be fine where the shape is; ``sizing="lfs"`` makes edges as long as the root of
+    it. Infinite where there is no medial axis, as on a plane. The axis is found by shrinking balls
+    (Ma et al. 2012) from about ``samples`` points spread evenly over the surface: sharp edges have
+    none of their own, and what is finer than the samples is not seen. Time grows with samples^2 on
+    a round sphere, where all are equally near to the axis, and hardly more than linearly elsewhere.
+    """
+    count = _arrays.whole_number(samples, "samples", 10_000_000)
+    if count < 100:
+        raise InvalidInput(f"samples must be at least 100, not {count}.")
+    return _core.local_feature_size(
+        _arrays.points(vertices),
+        _arrays.faces(faces),
+        count,
+        _arrays.whole_number(threads, "threads"),
+    )
+
+
+def detect_features(
+    vertices: ArrayLike, faces: ArrayLike, *, angle: float | None = None
+) -> NDArray[np.int32]:
+    """(e, 2): the feature edges of a surface, boundaries among them, as pairs of vertices, the lower
+    first, sorted; what `remesh` keeps as edges (but for creases too short for its edge length).
+
+    angle: edges at which the normal turns by that many degrees or more; without, creases are told
+    from the rest by dihedral angle with hysteresis, and a smooth surface, coarse or noisy, has none.
+    The mesh must be clean (see `clean`).
+    """
+    if angle is not None:
+        angle = _arrays.number(angle, "angle")
+        if not 0 < angle <= 180:
+            raise InvalidInput(f"angle must be above 0 and at most 180 degrees, not {angle}.")
+    return _core.detect_features(_arrays.points(vertices), _arrays.faces(faces), angle)

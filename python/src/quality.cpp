@@ -54,6 +54,25 @@ nb::dict measure_arrays(const VertexArray& vertices, const FaceArray& faces,
   return d;
 }
 
+nb::object vertex_distances_arrays(const VertexArray& vertices, const FaceArray& faces,
+                                   const VertexArray& reference_vertices,
+                                   const FaceArray& reference_faces, int threads) {
+  const TriangleMesh mesh = mesh_of(vertices, faces);
+  const TriangleMesh reference = mesh_of(reference_vertices, reference_faces);
+  std::vector<double> distances;
+  {
+    const nb::gil_scoped_release release;
+    Context context;
+    context.threads = threads;
+    distances = vertex_distances(mesh, reference, context);
+  }
+  return array_of(std::move(distances));
+}
+
+nb::dict topology_of(const VertexArray& vertices, const FaceArray& faces) {
+  return to_dict(measure_topology(mesh_of(vertices, faces)));
+}
+
 nb::tuple certify_arrays(const VertexArray& vertices, const FaceArray& faces, double min_angle,
                          double max_angle) {
   const TriangleMesh mesh = mesh_of(vertices, faces);
@@ -92,6 +111,8 @@ nb::tuple to_tuple(Certificate&& certificate) {
 
 void bind_quality(nb::module_& module) {
   module.def("measure", measure_arrays);
+  module.def("vertex_distances", vertex_distances_arrays);
+  module.def("topology", topology_of);
   module.def("certify", certify_arrays);
 }
 

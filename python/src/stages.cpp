@@ -1,21 +1,29 @@
 // Steps of the pipeline on their own, for research: the exact restricted Voronoi diagram and its
 // dual, the CVT energy with its gradient.
+#include <nanobind/stl/optional.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "bindings.h"
 #include "energy/cvt.h"
 #include "mesh/surface.h"
 #include "nonobtuse/error.h"
+#include "nonobtuse/options.h"
 #include "numeric/vec3.h"
 #include "parallel/workers.h"
 #include "quality/validity.h"
 #include "rdt/restricted_delaunay.h"
+#include "remesh/normalization.h"
+#include "remesh/parts.h"
 #include "rvd/candidate_lists.h"
 #include "rvd/cell_integrals.h"
 #include "rvd/localized_cells.h"
 #include "rvd/restricted_voronoi.h"
+#include "sizing/local_feature_size.h"
 
 namespace nonobtuse::python {
 namespace {
@@ -29,12 +37,7 @@ struct Problem {
 };
 
 // Throws InvalidInput for what the engines take for granted.
-Problem problem_of(const TriangleMesh& input, const std::vector<Vec3>& sites) {
-  const Index count = static_cast<Index>(sites.size());
-  if (count == 0) throw InvalidInput("There must be at least one site.");
-  for (Index i = 0; i < count; ++i)
-    if (!is_finite(sites[i]))
-      throw InvalidInput("Site " + std::to_string(i) + " is not finite.", i);
+void require_surface(const TriangleMesh& input) {
   quality::require_measurable(input);
   if (input.triangles.empty()) throw InvalidInput("The mesh has no triangles.");
   const Topology topology = measure_topology(input);
@@ -42,6 +45,15 @@ Problem problem_of(const TriangleMesh& input, const std::vector<Vec3>& sites) {
     throw InvalidInput(
         "The mesh must have at most two triangles at every edge, oriented alike; see "
         "nonobtuse.clean.");
+}
+
+Problem problem_of(const TriangleMesh& input, const std::vector<Vec3>& sites) {
+  const Index count = static_cast<Index>(sites.size());
+  if (count == 0) throw InvalidInput("There must be at least one site.");
+  for (Index i = 0; i < count; ++i)
+    if (!is_finite(sites[i]))
+      throw InvalidInput("Site " + std::to_string(i) + " is not finite.", i);
+  require_surface(input);
   Problem problem;
   problem.scale = std::min(quality::unit_scale(input), quality::unit_scale({sites, {}}));
   TriangleMesh scaled = quality::scaled(input, problem.scale);
@@ -155,12 +167,63 @@ nb::tuple cvt_energy_arrays(const VertexArray& vertices, const FaceArray& faces,
                         array_of(std::move(cells.mass)), array_of(std::move(cells.centroid)));
 }
 
+nb::object local_feature_size_array(const VertexArray& vertices, const FaceArray& faces,
+                                    Index samples, int threads) {
+  const TriangleMesh mesh = mesh_of(vertices, faces);
+  std::vector<double> sizes;
+  {
+    const nb::gil_scoped_release release;
+    require_surface(mesh);
+    const parallel::Workers workers(threads);
+    const pipeline::NormalizedInput input = pipeline::normalize(mesh, samples);
+    sizes = sizing::local_feature_size(input.surface, samples, workers);
+    for (double& s : sizes) s = s / input.map.scale;
+  }
+  return array_of(std::move(sizes));
+}
+
+// Pairs of vertices, the lower first, sorted. Empty `angle`: as Features::Auto does it.
+std::vector<std::array<Index, 2>> feature_edges_of(const TriangleMesh& mesh,
+                                                   std::optional<double> angle) {
+  RemeshOptions options;
+  options.features = angle ? Features::Dihedral : Features::Auto;
+  options.feature_angle = angle.value_or(options.feature_angle);
+  std::vector<pipeline::Part> parts = pipeline::connected_parts(mesh);
+  pipeline::find_features(mesh, options, parts);
+  std::vector<std::array<Index, 2>> edges;
+  for (const pipeline::Part& part : parts)
+    for (std::size_t f = 0; f < part.features.size(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        if (!features::flagged(part.features, static_cast<Index>(f), k)) continue;
+        const Triangle& t = mesh.triangles[part.facet[f]];
+        const auto [low, high] = std::minmax(t[mesh::next(k)], t[mesh::previous(k)]);
+        edges.push_back({low, high});
+      }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+nb::object detect_features_array(const VertexArray& vertices, const FaceArray& faces,
+                                 std::optional<double> angle) {
+  const TriangleMesh mesh = mesh_of(vertices, faces);
+  std::vector<std::array<Index, 2>> edges;
+  {
+    const nb::gil_scoped_release release;
+    require_surface(mesh);
+    edges = feature_edges_of(mesh, angle);
+  }
+  return array_of<Index>(std::move(edges), 2);
+}
+
 }  // namespace
 
 void bind_stages(nb::module_& module) {
   module.def("restricted_voronoi", restricted_voronoi_arrays);
   module.def("restricted_delaunay", restricted_delaunay_arrays);
   module.def("cvt_energy", cvt_energy_arrays);
+  module.def("local_feature_size", local_feature_size_array);
+  module.def("detect_features", detect_features_array, nb::arg(), nb::arg(), nb::arg().none());
 }
 
 }  // namespace nonobtuse::python

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace nonobtuse::features {
 
@@ -9,6 +11,8 @@ namespace {
 
 // Angles between the normals of two facets, by their cosines.
 constexpr double kCos15 = 0.96592582628906829;
+constexpr double kCos20 = 0.93969262078590839;
+constexpr double kCosFlat = 0.9986;  // 3 degrees
 constexpr double kCos40 = 0.76604444311897804;
 constexpr double kCos60 = 0.5;
 constexpr double kDegree = 3.14159265358979323846 / 180;
@@ -207,6 +211,57 @@ void detect_creases(const mesh::Surface& surface, EdgeFlags& flags) {
   Detector(surface, creases).run();
   for (std::size_t f = 0; f < flags.size(); ++f)
     flags[f] = static_cast<std::uint8_t>(flags[f] | creases[f]);
+}
+
+namespace {
+
+// How far the flat place around `facet` reaches from the line through a in direction d, if that is
+// less than `most`.
+double flat_width(const mesh::Surface& surface, const EdgeFlags& flags, Index facet, const Vec3& a,
+                  const Vec3& d, double most, std::vector<Index>& seen) {
+  const Vec3 normal = surface.normals[facet];
+  std::vector<Index> stack{facet};
+  seen.assign(1, facet);
+  double width = 0;
+  while (!stack.empty() && width < most) {
+    const Index f = stack.back();
+    stack.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 out = surface.vertices[surface.triangles[f][k]] - a;
+      width = std::max(width, length(out - dot(out, d) * d));
+      const Index g = surface.adjacent[f][k];
+      if (g < 0 || flagged(flags, f, k) || dot(surface.normals[g], normal) < kCosFlat) continue;
+      const auto at = std::lower_bound(seen.begin(), seen.end(), g);
+      if (at != seen.end() && *at == g) continue;
+      seen.insert(at, g);
+      stack.push_back(g);
+    }
+  }
+  return width;
+}
+
+}  // namespace
+
+void flag_coarse_creases(const mesh::Surface& surface, double width, EdgeFlags& flags) {
+  std::vector<Index> seen;
+  bool any = false;
+  for (Index f = 0; f < static_cast<Index>(flags.size()) && !any; ++f)
+    for (int k = 0; k < 3; ++k) any = any || (flagged(flags, f, k) && surface.adjacent[f][k] >= 0);
+  if (!any) return;
+  EdgeFlags added = flags;
+  for (Index f = 0; f < static_cast<Index>(flags.size()); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Index g = surface.adjacent[f][k];
+      if (g < 0 || flagged(flags, f, k) || dot(surface.normals[f], surface.normals[g]) > kCos20)
+        continue;
+      const Triangle& t = surface.triangles[f];
+      const Vec3 a = surface.vertices[t[mesh::next(k)]];
+      const Vec3 d = normalized(surface.vertices[t[mesh::previous(k)]] - a);
+      if (flat_width(surface, flags, f, a, d, width, seen) >= width &&
+          flat_width(surface, flags, g, a, d, width, seen) >= width)
+        set_flag(added, f, k);
+    }
+  flags = std::move(added);
 }
 
 void flag_dihedral_angles(const mesh::Surface& surface, double degrees, EdgeFlags& flags) {

@@ -13,6 +13,11 @@ namespace nonobtuse::features {
 /// has a gap between what bends smoothly and what is sharp. O(#F), deterministic.
 void detect_creases(const mesh::Surface& surface, EdgeFlags& flags);
 
+/// Of a surface with creases (does nothing without): flags edges at which the normal turns by 20
+/// degrees or more between two flat places, both wider than `width` (working units). A coarse
+/// prism is kept as it is by meshes finer than its sides.
+void flag_coarse_creases(const mesh::Surface& surface, double width, EdgeFlags& flags);
+
 /// Flags all edges at which the normal turns by `degrees` or more; nothing else is considered.
 void flag_dihedral_angles(const mesh::Surface& surface, double degrees, EdgeFlags& flags);
 

@@ -92,6 +92,10 @@ constexpr double kTurnScale = 0.75;     // of h: the half-length of the secants
 constexpr double kCosSharpTurn = 0.77;  // a little below 40 degrees
 constexpr double kCosVerySharp = 0.4;   // kept however near the next corner is
 constexpr double kCornerSpacing = 0.7;  // of h
+// Where the polyline's own segments are longer than this many h, a turn of 12 degrees is a corner:
+// the curve is coarser than the mesh.
+constexpr double kLongSegment = 1.8;
+constexpr double kCosSlightTurn = 0.978;
 
 double size_at(const mesh::Surface& surface, Index v) {
   return surface.size.empty() ? 1 : surface.size[v];
@@ -106,6 +110,11 @@ class Polyline {
   [[nodiscard]] Index count() const { return static_cast<Index>(curve_.vertices.size()); }
   [[nodiscard]] double arc(Index i) const { return lengths_.arc[i]; }
   [[nodiscard]] double length() const { return lengths_.arc.back(); }
+  // The shorter of the segments before and after vertex i.
+  [[nodiscard]] double segment(Index i) const {
+    const double before = i > 0 ? arc(i) - arc(i - 1) : length() - arc(count() - 1);
+    return std::min(before, lengths_.arc[i + 1] - arc(i));
+  }
   [[nodiscard]] Vec3 vertex(Index i) const {
     return surface_.vertices[curve_.vertices[i % count()]];
   }
@@ -149,7 +158,9 @@ void mark_turns(const mesh::Surface& surface, const FeatureCurve& curve, double 
     const double local = h * size_at(surface, curve.vertices[i]);
     const double near = line.turn(i, 1e-3 * local);
     const double far = line.turn(i, kTurnScale * local);
-    if (std::max(near, far) < kCosSharpTurn) turns.push_back({std::max(near, far), i});
+    const bool coarse = line.segment(i) > kLongSegment * local;
+    if (std::max(near, far) < (coarse ? kCosSlightTurn : kCosSharpTurn))
+      turns.push_back({std::max(near, far), i});
   }
   std::sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) {
     return a.cosine != b.cosine ? a.cosine < b.cosine : a.i < b.i;

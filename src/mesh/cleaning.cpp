@@ -1,6 +1,8 @@
 // From what a file holds to oriented surfaces without degenerate faces, which may meet along edges
 // and in vertices: repairs that leave no doubt are made and reported, everything else is refused
 // with its place.
+#include "mesh/cleaning.h"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -35,6 +37,33 @@ void check_elements(const TriangleMesh& mesh) {
                                ", but there are " + number(count) + " vertices, counted from 0.",
                            static_cast<Index>(t));
   if (mesh.triangles.empty()) throw InvalidInput("The mesh has no triangles.");
+}
+
+// Whether every vertex is used and its triangles form one fan around it.
+bool one_fan_each(const TriangleMesh& mesh, const std::vector<std::array<Index, 3>>& adjacent) {
+  const auto corner_of = [&](Index t, Index v) {
+    const Triangle& f = mesh.triangles[t];
+    return f[0] == v ? 0 : f[1] == v ? 1 : 2;
+  };
+  std::vector<Index> corners(mesh.vertices.size(), 0);
+  std::vector<Index> some(mesh.vertices.size(), -1);  // at a boundary the last clockwise
+  for (Index t = 0; t < static_cast<Index>(mesh.triangles.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Index v = mesh.triangles[t][k];
+      ++corners[v];
+      if (some[v] < 0 || adjacent[t][mesh::previous(k)] < 0) some[v] = t;
+    }
+  for (Index v = 0; v < static_cast<Index>(mesh.vertices.size()); ++v) {
+    if (some[v] < 0) return false;
+    Index met = 0;
+    Index t = some[v];
+    do {
+      ++met;
+      t = adjacent[t][mesh::next(corner_of(t, v))];
+    } while (t >= 0 && t != some[v] && met <= corners[v]);
+    if (met != corners[v]) return false;
+  }
+  return true;
 }
 
 class Cleaner {
@@ -316,9 +345,31 @@ class Cleaner {
 
 }  // namespace
 
-CleanResult clean(const TriangleMesh& mesh) {
+bool mesh::needs_no_repair(const TriangleMesh& mesh) {
   check_elements(mesh);
-  return Cleaner(mesh).run();
+  for (const auto& [a, b, c] : mesh.triangles)
+    if (a == b || b == c || c == a ||
+        collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]))
+      return false;
+  const auto count = static_cast<Index>(mesh.vertices.size());
+  const auto adjacent = triangle_adjacency(mesh.triangles, count);
+  for (const auto& [a, b, c] : adjacent) {
+    // Two faces on the same three vertices are neighbours across more than one edge.
+    if ((a >= 0 && (a == b || a == c)) || (b >= 0 && b == c)) return false;
+  }
+  // Faces that disagree at an edge, or are more than two there, make several fans.
+  return one_fan_each(mesh, adjacent);
+}
+
+CleanResult clean(const TriangleMesh& mesh) {
+  if (!mesh::needs_no_repair(mesh)) return Cleaner(mesh).run();
+  CleanResult result;
+  result.mesh = mesh;
+  result.source_triangle.resize(mesh.triangles.size());
+  result.source_vertex.resize(mesh.vertices.size());
+  std::iota(result.source_triangle.begin(), result.source_triangle.end(), Index{0});
+  std::iota(result.source_vertex.begin(), result.source_vertex.end(), Index{0});
+  return result;
 }
 
 }  // namespace nonobtuse

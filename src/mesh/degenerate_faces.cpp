@@ -158,9 +158,22 @@ class Remover {
   std::size_t edits_ = 0;
 };
 
+// A component of the area vector that is far from zero for its rounding errors, in coordinates of
+// usual size; most triangles have one.
+bool clearly_has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a;
+  const Vec3 v = c - a;
+  const auto clear = [](double p, double q) {
+    const double magnitude = std::abs(p) + std::abs(q);
+    return magnitude > 1e-280 && std::abs(p - q) > 1e-14 * magnitude;
+  };
+  return clear(u.x * v.y, u.y * v.x) || clear(u.y * v.z, u.z * v.y) || clear(u.z * v.x, u.x * v.z);
+}
+
 }  // namespace
 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (clearly_has_area(a, b, c)) return false;
   int exponent = 0;
   std::frexp(std::max({largest_coordinate(a), largest_coordinate(b), largest_coordinate(c)}),
              &exponent);

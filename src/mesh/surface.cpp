@@ -26,22 +26,39 @@ std::vector<std::array<Index, 3>> triangle_adjacency(const std::vector<Triangle>
     const Triangle& t = triangles[half_edge.first];
     return std::max(t[next(half_edge.second)], t[previous(half_edge.second)]);
   };
+  const auto join = [&](const std::pair<Index, int>& one, const std::pair<Index, int>& other) {
+    const auto [t, k] = one;
+    const auto [u, l] = other;
+    if (triangles[t][next(k)] != triangles[u][previous(l)]) return;  // the same way round
+    adjacent[t][k] = u;
+    adjacent[u][l] = t;
+  };
+  // Half-edges are joined where exactly two of a bucket have the same upper vertex.
+  constexpr std::size_t kFew = 16;
   for (Index v = 0; v < count; ++v) {
+    const std::size_t begin = start[v];
+    const std::size_t size = start[v + 1] - begin;
+    if (size <= kFew) {
+      std::array<Index, kFew> to{};
+      for (std::size_t i = 0; i < size; ++i) to[i] = upper(half_edges[begin + i]);
+      for (std::size_t i = 0; i < size; ++i) {
+        std::size_t same = 0, other = i;
+        for (std::size_t j = 0; j < size; ++j)
+          if (to[j] == to[i] && j != i) ++same, other = j;
+        if (same == 1 && other > i) join(half_edges[begin + i], half_edges[begin + other]);
+      }
+      continue;
+    }
     // Half-edges of one edge side by side, so that a vertex of any valence costs n log n.
-    std::sort(half_edges.begin() + static_cast<std::ptrdiff_t>(start[v]),
-              half_edges.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
+    std::sort(half_edges.begin() + static_cast<std::ptrdiff_t>(begin),
+              half_edges.begin() + static_cast<std::ptrdiff_t>(begin + size),
               [&](const auto& a, const auto& b) {
                 return std::pair(upper(a), a) < std::pair(upper(b), b);
               });
-    std::size_t end = start[v];
-    for (std::size_t i = start[v]; i < start[v + 1]; i = end) {
-      while (end < start[v + 1] && upper(half_edges[end]) == upper(half_edges[i])) ++end;
-      if (end - i != 2) continue;
-      const auto [t, k] = half_edges[i];
-      const auto [u, l] = half_edges[i + 1];
-      if (triangles[t][next(k)] != triangles[u][previous(l)]) continue;  // the same way round
-      adjacent[t][k] = u;
-      adjacent[u][l] = t;
+    std::size_t end = begin;
+    for (std::size_t i = begin; i < begin + size; i = end) {
+      while (end < begin + size && upper(half_edges[end]) == upper(half_edges[i])) ++end;
+      if (end - i == 2) join(half_edges[i], half_edges[i + 1]);
     }
   }
   return adjacent;

@@ -38,6 +38,13 @@ class Monitor {
     return !cancelled();
   }
 
+  /// The same where finding out the number of obtuse triangles takes time: `obtuse()` is asked only
+  /// if somebody listens.
+  template <class Obtuse>
+  bool tick_counting(double fraction_of_stage, const Obtuse& obtuse) {
+    return tick(fraction_of_stage, context_.progress ? obtuse() : -1);
+  }
+
   /// Whether it is worth finding out what `record` wants to know.
   [[nodiscard]] bool recording() const { return history_ != nullptr; }
 

@@ -2,6 +2,7 @@
 // squares neither over- nor underflow.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "nonobtuse/error.h"
 #include "nonobtuse/quality.h"
@@ -70,6 +71,20 @@ SurfaceDistance measure_distance(const TriangleMesh& mesh, const TriangleMesh& r
   require_comparable(mesh, reference);
   const parallel::Workers workers(context.threads);
   return distance_of(Comparison(mesh, reference, workers), workers);
+}
+
+std::vector<double> vertex_distances(const TriangleMesh& mesh, const TriangleMesh& reference,
+                                     const Context& context) {
+  require_comparable(mesh, reference);
+  const parallel::Workers workers(context.threads);
+  const double scale = std::min(quality::unit_scale(mesh), quality::unit_scale(reference));
+  const TriangleMesh target = quality::scaled(reference, scale);
+  const spatial::TriangleBvh bvh(target.vertices, target.triangles, workers);
+  std::vector<double> distances(mesh.vertices.size());
+  workers.for_each(distances.size(), 256, [&](std::size_t v) {
+    distances[v] = std::sqrt(bvh.closest(scale * mesh.vertices[v]).squared_distance) / scale;
+  });
+  return distances;
 }
 
 QualityReport measure(const TriangleMesh& mesh, const TriangleMesh* reference,

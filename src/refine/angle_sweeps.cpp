@@ -32,6 +32,7 @@ void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
     return std::pair(broken, outside.size());
   };
   std::vector<Index> bad = triangles_outside(mesh, test);
+  if (bad.empty()) return;
   std::size_t least = bad.size();
   auto best_worth = worth(bad);
   mesh::EditableMesh best_mesh = mesh;

@@ -1,5 +1,6 @@
 #include "refine/fidelity.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "numeric/random.h"
@@ -11,6 +12,7 @@ using mesh::next;
 using mesh::previous;
 
 constexpr std::size_t kChunk = 512;
+constexpr double kLeash = 1000;
 constexpr int kLongestWalk = 64;  // steps; no more than a cap on degenerate input
 
 // Walks from triangle `at` to the triangle locally nearest to y. Only where the closest point lies
@@ -180,7 +182,8 @@ void Fidelity::walk_samples(const mesh::EditableMesh& mesh, const parallel::Work
   sort_samples(found, mesh.triangle_capacity());
 }
 
-void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles) {
+std::vector<Index> Fidelity::rewalk(const mesh::EditableMesh& mesh,
+                                    std::span<const Index> triangles) {
   std::vector<std::pair<Index, Index>> moves;  // sample, triangle
   for (Index t : triangles) {
     Index* link = &first[t];
@@ -197,10 +200,13 @@ void Fidelity::rewalk(const mesh::EditableMesh& mesh, std::span<const Index> tri
     }
     update_triangle(mesh, t);
   }
+  std::vector<Index> receivers;
   for (const auto& [s, to] : moves) {
     samples[s].next = first[to];
     first[to] = s;
+    receivers.push_back(to);
   }
+  return receivers;
 }
 
 void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth) {
@@ -217,16 +223,18 @@ void Fidelity::emphasize_far_points(const mesh::EditableMesh& mesh, double far, 
 }
 
 Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                                       double growth, const parallel::Workers& workers) {
+                                       double growth, const parallel::Workers& workers,
+                                       const std::vector<Index>* only) {
   // One candidate per vertex of M: the triangle of a sample of one of its facets, to walk from.
   std::vector<Index> start(surface().vertices.size(), -1);
   std::vector<Sample> candidates;
   std::vector<Index> nearest;
   Index count = 0;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
-    for (Index s = first[t]; s >= 0; s = samples[s].next)
-      if (samples[s].vertex >= 0) start[samples[s].vertex] = -2;
-  for (Index t = 0; t < static_cast<Index>(first.size()); ++t)
+  for (const Sample& sample : samples)
+    if (sample.vertex >= 0) start[sample.vertex] = -2;
+  const auto examined = static_cast<Index>(only ? only->size() : first.size());
+  for (Index i = 0; i < examined; ++i) {
+    const Index t = only ? (*only)[i] : i;
     for (Index s = first[t]; s >= 0; s = samples[s].next) {
       Sample& sample = samples[s];
       if (sample.vertex >= 0) {
@@ -244,6 +252,7 @@ Index Fidelity::emphasize_far_vertices(const mesh::EditableMesh& mesh, double fa
         nearest.push_back(t);
       }
     }
+  }
   std::vector<char> is_far(candidates.size());
   workers.for_each(candidates.size(), kChunk, [&](std::size_t i) {
     ClosestPoint closest;
@@ -424,8 +433,36 @@ double Fidelity::vertex(Index v, const Vec3& p, Vec3* gradient) const {
   const double weight = weights.to_surface * vertex_weights[v];
   const double height = dot(p - plane.point, plane.normal) - plane.offset;
   if (gradient) *gradient += 2 * weight * height * plane.normal;
-  return weight * height * height;
+  double energy = weight * height * height;
+  const double excess = std::abs(height) - leash * size.at(v);
+  if (excess > 0) {
+    const double stiffness = leash_stiffness(v);
+    energy += stiffness * excess * excess;
+    if (gradient) *gradient += (height < 0 ? -2 : 2) * stiffness * excess * plane.normal;
+  }
+  return energy;
 }
+
+Vec3 Fidelity::on_leash(Index v, const Vec3& from, const Vec3& to) const {
+  const TangentPlane& plane = vertex_planes[v];
+  const auto height = [&](const Vec3& p) {
+    return dot(p - plane.point, plane.normal) - plane.offset;
+  };
+  const double most = std::max(2 * leash * size.at(v), std::abs(height(from)));
+  const double h = height(to);
+  if (!(std::abs(h) > most)) return to;
+  return to - (h - std::clamp(h, -most, most)) * plane.normal;
+}
+
+double Fidelity::vertex_stiffness(Index v, const Vec3& p) const {
+  const TangentPlane& plane = vertex_planes[v];
+  const double height = dot(p - plane.point, plane.normal) - plane.offset;
+  const bool taut = std::abs(height) > leash * size.at(v);
+  return 2 * (weights.to_surface * vertex_weights[v] + (taut ? leash_stiffness(v) : 0));
+}
+
+// In the local size's units the same everywhere.
+double Fidelity::leash_stiffness(Index v) const { return kLeash / (size.at(v) * size.at(v)); }
 
 double Fidelity::mean_square(const mesh::EditableMesh& mesh) const {
   double sum = 0, total = 0;

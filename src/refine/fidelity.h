@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -69,6 +70,9 @@ class Fidelity {
   [[nodiscard]] const spatial::TriangleBvh& surface_bvh() const { return *surface_bvh_; }
 
   FidelityWeights weights;
+  /// Distance from the tangent plane, where the size is 1, beyond which vertices are drawn back
+  /// so strongly that angles near the bounds give way first.
+  double leash = std::numeric_limits<double>::infinity();
   TargetSize size;       ///< frozen; before samples and planes
   PatchLabels patches;   ///< before samples and planes; empty: anything may be near anything
   Knots knots;           ///< empty: no vertex is on a curve that it may slide along
@@ -91,15 +95,18 @@ class Fidelity {
   /// samples by triangle.
   void walk_samples(const mesh::EditableMesh& mesh, const parallel::Workers& workers);
   /// The same for the samples of a few triangles, unsorted; renews these triangles' planes.
-  void rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
+  /// Returns the triangles that got samples of others.
+  std::vector<Index> rewalk(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Points of T that stick out: multiplies by `growth` the weights of vertices and midpoints
   /// farther than `far` from their tangent planes.
   void emphasize_far_points(const mesh::EditableMesh& mesh, double far, double growth);
   /// Sharp vertices of M, which samples by area miss: adds those farther than `far` from T as
   /// samples of the given weight; of those added before, multiplies the weights by `growth` where
-  /// they are still far. Returns how many are far.
+  /// they are still far. With `only` just those near samples of these triangles. Returns how many
+  /// are far.
   Index emphasize_far_vertices(const mesh::EditableMesh& mesh, double far, double weight,
-                               double growth, const parallel::Workers& workers);
+                               double growth, const parallel::Workers& workers,
+                               const std::vector<Index>* only = nullptr);
   /// Gives the samples of these triangles to the nearest of them (after a local edit).
   void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);
   /// Feet, tangent planes and weights of all vertices and midpoints: by search where there is none
@@ -114,6 +121,11 @@ class Fidelity {
   double triangle(Index t, const std::array<Vec3, 3>& p, std::array<Vec3, 3>* gradient) const;
   /// Energy of a vertex at p against its tangent plane; adds to `gradient`.
   double vertex(Index v, const Vec3& p, Vec3* gradient) const;
+  /// `to` for vertex v at `from`, brought back along the normal to twice the leash from the tangent
+  /// plane, or to as far as it is now: no weight of the angles can pull it farther.
+  Vec3 on_leash(Index v, const Vec3& from, const Vec3& to) const;
+  /// Second derivative of that energy along the plane's normal.
+  double vertex_stiffness(Index v, const Vec3& p) const;
   /// Mean squared distance of the samples, by weight.
   [[nodiscard]] double mean_square(const mesh::EditableMesh& mesh) const;
 
@@ -131,6 +143,7 @@ class Fidelity {
 
   [[nodiscard]] Index walk_to_nearest(const mesh::EditableMesh& mesh, Index from,
                                       const Sample& sample, ClosestPoint& nearest) const;
+  [[nodiscard]] double leash_stiffness(Index v) const;
   void sort_samples(const std::vector<Index>& triangle_of_sample, Index triangles);
   [[nodiscard]] TangentPlane plane(const Vec3& p, const Vec3& foot, Index facet) const;
 };

@@ -76,7 +76,8 @@ void GlobalDescent::freeze() {
     Vec3 sum;
     for (Index c = corner_start_[v]; c < corner_start_[v + 1]; ++c)
       sum += corner_gradient_[corner_[c] / 3][corner_[c] % 3];
-    const double surface = 8 * fidelity_.weights.to_surface * fidelity_.vertex_weights[v];
+    const double surface =
+        4 * fidelity_.vertex_stiffness(static_cast<Index>(v), mesh_.positions[v]);
     const double tangential = sum.x + 0.3 * sum.y;
     const double vertical = 0.3 * sum.x + 2 * sum.y + surface;
     blocks_[v] = {fidelity_.vertex_planes[v].normal, 1 / tangential, 1 / vertical};

@@ -191,6 +191,7 @@ Patch::Patch(const mesh::EditableMesh& whole, const Fidelity& whole_fidelity,
   mesh = mesh::EditableMesh(std::move(positions), std::move(triangles));
 
   fidelity.weights = whole_fidelity.weights;
+  fidelity.leash = whole_fidelity.leash;
   for (Index t : triangle) {
     fidelity.edge_planes.push_back(whole_fidelity.edge_planes[t]);
     fidelity.edge_weights.push_back(whole_fidelity.edge_weights[t]);

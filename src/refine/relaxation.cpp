@@ -151,6 +151,7 @@ struct RingSolver {
       if (l > kLongestStep * local) d *= kLongestStep * local / l;
       Vec3 to = p + d;
       if (options.on_surface) to = fidelity.walk_foot(to, fidelity.vertex_planes[v].facet).point;
+      to = fidelity.on_leash(v, p, to);
       if (energy(v, to, nullptr) < before) {
         mesh.positions[v] = to;
         return;

@@ -193,6 +193,22 @@ std::vector<std::vector<Edit>> search_curve_edits(const Patch& patch, Index v, i
   return found.best();
 }
 
+std::vector<std::vector<Edit>> search_curve_splits(const Patch& patch, Index v, int solutions) {
+  Search found(patch.total_defect() - 1, solutions);
+  found.focus_on(patch, v);
+  if (patch.valence(v) >= patch.fidelity.valences.range(v).least) return {};
+  for_ring(patch.mesh, v, [&](Index t, int k) {
+    if (patch.mesh.adjacent(t, k) >= 0) return;
+    const Triangle& c = patch.mesh.triangle(t);
+    const Edit edit{Edit::Kind::SplitCurve, c[mesh::next(k)], c[mesh::previous(k)]};
+    if (!patch.possible(edit)) return;
+    Patch next = patch;
+    next.apply(edit);
+    found.descend(next, 4);
+  });
+  return found.best();
+}
+
 std::vector<std::vector<Edit>> search_neutral_flips(const Patch& patch, const Triangle& around,
                                                     int solutions) {
   Search found(patch.total_defect(), solutions);

@@ -29,6 +29,10 @@ std::vector<std::vector<Edit>> search_balancing_edits(const Patch& patch, Index 
 std::vector<std::vector<Edit>> search_curve_edits(const Patch& patch, Index v, int net,
                                                   int solutions);
 
+/// The same to lower the total defect: a knot more on the edge of a curve opposite v, which has
+/// too few neighbours.
+std::vector<std::vector<Edit>> search_curve_splits(const Patch& patch, Index v, int solutions);
+
 /// Flips around a triangle (of local vertices), with up to one more to restore the valences, that
 /// do not raise the total defect.
 std::vector<std::vector<Edit>> search_neutral_flips(const Patch& patch, const Triangle& around,

@@ -40,28 +40,54 @@ class Mender {
     // A vertex of low valence disappears; on a boundary, which stays, its neighbourhood grows.
     const bool grow = low && mesh_.on_boundary(v);
     const int net = grow ? 0 : low != mesh_.on_boundary(v) ? -1 : 1;
-    const mesh::EditableMesh mesh_before = mesh_;
-    const Fidelity fidelity_before = fidelity_;
+    const Backup before{mesh_, fidelity_};
     const Patch patch = patch_around(v, effort.rings);
     const auto sequences = search_valence_edits(patch, patch.local(v),
                                                 {grow ? 4 : effort.flips, 12, net, grow ? 2 : 0});
-    const Index count = mesh_.vertex_count();
-    if (!commit_best(patch, sequences)) return false;
-    while (mesh_.vertex_count() != count) {
-      const int back = mesh_.vertex_count() < count ? 1 : -1;
-      if (balance_count(mesh_, fidelity_, back, options_, workers_)) continue;
-      mesh_ = mesh_before;
-      fidelity_ = fidelity_before;
-      return false;
-    }
-    return true;
+    return commit_balanced(patch, sequences, before);
+  }
+
+  // A knot more on a curve beside v.
+  bool by_curve(Index v, const Effort& effort) {
+    const Backup before{mesh_, fidelity_};
+    const Patch patch = patch_around(v, effort.rings);
+    const auto sequences = search_curve_splits(patch, patch.local(v), 6);
+    return !sequences.empty() && commit_balanced(patch, sequences, before);
   }
 
  private:
+  struct Backup {
+    mesh::EditableMesh mesh;
+    Fidelity fidelity;
+  };
+
+  // Vertices once the copies of every knot are one.
+  [[nodiscard]] Index glued_count() const {
+    Index count = mesh_.vertex_count();
+    for (const SlidingKnot& knot : fidelity_.knots.all)
+      if (!knot.copies.empty()) count -= static_cast<Index>(knot.copies.size()) - 1;
+    return count;
+  }
+
   Patch patch_around(Index v, int rings) {
     ensure_planes(mesh_, fidelity_, v, rings + 2);
     const std::array<Index, 1> center{v};
     return Patch(mesh_, fidelity_, center, rings);
+  }
+
+  // A change of the number of vertices stays only if it can be made up for elsewhere.
+  bool commit_balanced(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
+                       const Backup& before) {
+    const Index count = glued_count();
+    if (!commit_best(patch, sequences)) return false;
+    while (glued_count() != count) {
+      const int back = glued_count() < count ? 1 : -1;
+      if (balance_count(mesh_, fidelity_, back, options_, workers_)) continue;
+      mesh_ = before.mesh;
+      fidelity_ = before.fidelity;
+      return false;
+    }
+    return true;
   }
 
   bool commit_best(const Patch& patch, const std::vector<std::vector<Edit>>& sequences) {
@@ -178,7 +204,8 @@ Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
       if (pass >= 1 && dear-- <= 0)
         return static_cast<Index>(bad_valences(mesh, fidelity.valences).size());
       if (mender.by_flips(v, effort)) continue;
-      if (pass >= 2) mender.by_pair(v, {4, 2});
+      if (pass < 2 || mender.by_pair(v, {4, 2})) continue;
+      if (!fidelity.knots.empty()) mender.by_curve(v, {3, 4});
     }
   }
   return static_cast<Index>(bad_valences(mesh, fidelity.valences).size());

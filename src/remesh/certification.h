@@ -9,12 +9,15 @@
 #include "remesh/featured_part.h"
 #include "remesh/normalization.h"
 #include "remesh/parts.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
-/// Appends the mesh of one part, in input coordinates, with source_triangle and barycentric.
-void append_part(const Part& part, const NormalizedInput& input, const mesh::EditableMesh& mesh,
-                 const parallel::Workers& workers, RemeshResult& result);
+/// Appends the mesh of one part, in input coordinates, with source_triangle and barycentric; `bvh`
+/// is that of the input's surface.
+void append_part(const Part& part, const NormalizedInput& input, const spatial::TriangleBvh& bvh,
+                 const mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                 RemeshResult& result);
 
 /// The same for a part with features. Vertices with a source get its very coordinates.
 void append_part(const Part& part, const NormalizedInput& input, const GluedMesh& glued,

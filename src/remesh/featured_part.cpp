@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "features/crease_detection.h"
 #include "features/facet_splitting.h"
 #include "features/knot_insertion.h"
 #include "features/narrow_places.h"
@@ -32,11 +33,14 @@ namespace {
 // Edge length of a uniform mesh in working coordinates, where area / #V = 1.
 const double kEdgeLength = std::sqrt(2 / std::sqrt(3.0));
 constexpr double kShortestCrease = 1.5;  // of an edge length; shorter ones that end freely go
+constexpr double kFlatWidth = 1.8;       // of an edge length: of the sides of a prism to be kept
 constexpr double kSnap = 0.02;           // of an edge length
 constexpr double kFeatureEdge = 0.45;    // of an edge length: longest piece of a feature edge while
                                          // widths are measured
 constexpr double kLeastSize = 0.05;      // of an edge length
 constexpr int kSizeSteps = 8;
+constexpr double kLeastAngle = 30;  // of the promise, degrees
+constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 
 // The input cut open, without knots: what the patches are.
 features::CutSurface patches_of(const mesh::Surface& surface, const features::EdgeFlags& flags) {
@@ -165,11 +169,12 @@ class FeaturedPart {
     clock_.run("cvt", 0.02, 0.5, [&] { mesh_patches(); });
     reduce();
     if (!monitor.cancelled()) {
+      const spatial::TriangleBvh bvh(cut_.surface.vertices, cut_.surface.triangles, workers_);
       clock_.run("valence", 0.5, 0.55, [&] {
-        return optimize_valence(cut_.surface, mesh_, workers_, monitor, &network_);
+        return optimize_valence(cut_.surface, bvh, mesh_, workers_, monitor, &network_);
       });
       clock_.run("refinement", 0.55, 1, [&] {
-        return refine(cut_.surface, mesh_, refinement_options(options_), workers_, monitor,
+        return refine(cut_.surface, bvh, mesh_, refinement_options(options_), workers_, monitor,
                       &network_);
       });
     }
@@ -257,10 +262,30 @@ class FeaturedPart {
         glued.feature_edges.push_back({std::min(a, b), std::max(a, b)});
       }
     }
+    glued.narrow_corners = narrow_corners(of_knot);
     std::sort(glued.feature_edges.begin(), glued.feature_edges.end());
     glued.feature_edges.erase(std::unique(glued.feature_edges.begin(), glued.feature_edges.end()),
                               glued.feature_edges.end());
     return glued;
+  }
+
+  // Sectors of the surface at fixed knots with a face angle below the promise.
+  [[nodiscard]] std::vector<NarrowCorner> narrow_corners(const std::vector<Index>& of_knot) const {
+    std::vector<double> angle(cut_.knot.size(), 0);
+    for (const Triangle& t : cut_.surface.triangles)
+      for (int k = 0; k < 3; ++k) {
+        if (cut_.knot[t[k]] < 0) continue;
+        const Vec3 a = cut_.surface.vertices[t[mesh::next(k)]] - cut_.surface.vertices[t[k]];
+        const Vec3 b = cut_.surface.vertices[t[mesh::previous(k)]] - cut_.surface.vertices[t[k]];
+        angle[t[k]] += std::atan2(length(cross(a, b)), dot(a, b)) * kDegreesPerRadian;
+      }
+    std::vector<NarrowCorner> corners;
+    for (std::size_t v = 0; v < angle.size(); ++v) {
+      const Index k = cut_.knot[v];
+      if (k >= 0 && network_.knots[k].curve < 0 && angle[v] < kLeastAngle)
+        corners.push_back({of_knot[k], angle[v], 0});
+    }
+    return corners;
   }
 
   const FeaturePlan& plan_;
@@ -287,6 +312,8 @@ class Planner {
   }
 
   FeaturePlan run() {
+    if (options_.features == Features::Auto)
+      features::flag_coarse_creases(plan_.surface, kFlatWidth * kEdgeLength, plan_.flags);
     features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
     plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
     if (plan_.graph.curves.empty() && points_.empty()) return std::move(plan_);

@@ -7,6 +7,7 @@
 #include "features/vertex_balance.h"
 #include "mesh/editable_mesh.h"
 #include "nonobtuse/options.h"
+#include "nonobtuse/result.h"
 #include "parallel/workers.h"
 #include "remesh/normalization.h"
 #include "remesh/parts.h"
@@ -34,6 +35,7 @@ struct GluedMesh {
   TriangleMesh mesh;
   std::vector<Index> source;  ///< #V: the part's vertex of equal position; -1 where there is none
   std::vector<std::array<Index, 2>> feature_edges;  ///< of the mesh
+  std::vector<NarrowCorner> narrow_corners;  ///< of the mesh; what is reached is not known yet
 };
 
 /// Throws TooFewVertices where the topology needs more.

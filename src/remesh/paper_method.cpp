@@ -152,7 +152,8 @@ PlacedSites mend_valences(const mesh::Surface& surface, const SurfaceProjection&
                           PlacedSites placed, const parallel::Workers& workers,
                           parallel::Monitor& monitor) {
   Extraction extraction = extract(surface, placed.sites, workers, monitor);
-  optimize_valence(surface, extraction.mesh, workers, monitor);
+  const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
+  optimize_valence(surface, bvh, extraction.mesh, workers, monitor);
   PlacedSites mended = projection.place(extraction.mesh.to_mesh().vertices);
   const auto defects = [&](const PlacedSites& x) {
     return restricted_diagram(surface, x.sites, workers).defects.size();

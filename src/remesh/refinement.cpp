@@ -32,19 +32,20 @@ constexpr double kMeanQualitySized = 0.939;  // gradation costs shape
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
+constexpr double kLeash = 0.05;  // where the size is 1
+constexpr double kMendingLeash = 0.2;
 
 class Refinement {
  public:
   Refinement(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor, const mesh::CurveNetwork* curves)
+             const spatial::TriangleBvh& bvh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor,
+             const mesh::CurveNetwork* curves)
       : mesh_(mesh),
-
         options_(options),
         workers_(workers),
         monitor_(monitor),
-        bvh_(surface.vertices, surface.triangles, workers),
-        fidelity_(surface, bvh_),
+        fidelity_(surface, bvh),
         descent_(mesh, fidelity_, options.on_surface, workers) {
     fidelity_.weights = {kFidelity, kFidelity};
     if (options.on_surface) fidelity_.weights.to_surface = 0;
@@ -63,6 +64,8 @@ class Refinement {
     // First wide open, so that shape and fidelity find their balance; then two degrees inside.
     descend(14, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
     const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
+    // Beside creases the connectivity is less free, and vertices would rather leave the surface.
+    if (!fidelity_.knots.empty()) fidelity_.leash = kLeash;
     for (int round = 0; round < 3; ++round) {
       if (monitor_.cancelled()) return outside_goal({lo, hi});
       const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
@@ -77,11 +80,10 @@ class Refinement {
     local.goal = goal;
     local.shape = energy::hinged(100, lo + 1, hi - 1);
     local.on_surface = options_.on_surface;
-    fidelity_.valences.measure(mesh_);
-    refine::mend_valences(mesh_, fidelity_, local, false, workers_, [&] { return tick(0.75); });
-    const Index outside =
-        refine::sweep_angles(mesh_, fidelity_, goal, options_.on_surface, workers_,
-                             [&](double f) { return tick(0.75 + 0.15 * f); });
+    Index outside = mend_and_sweep(local);
+    // Beside creases a second attempt finds a mesh in better order.
+    for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
+      outside = mend_and_sweep(local);
     refine::polish_distance(mesh_, fidelity_, local, workers_,
                             [&](double f) { return tick(0.9 + 0.05 * f); });
     refine::separate_sheets(mesh_, fidelity_, local, workers_,
@@ -90,7 +92,20 @@ class Refinement {
   }
 
  private:
-  bool tick(double fraction) { return monitor_.tick(fraction, refine::count_obtuse(mesh_)); }
+  Index mend_and_sweep(const refine::TrialOptions& local) {
+    fidelity_.valences.measure(mesh_);
+    // New connectivity needs room to settle.
+    const double leash = fidelity_.leash;
+    fidelity_.leash = kMendingLeash / kLeash * leash;
+    refine::mend_valences(mesh_, fidelity_, local, false, workers_, [&] { return tick(0.75); });
+    fidelity_.leash = leash;
+    return refine::sweep_angles(mesh_, fidelity_, local.goal, options_.on_surface, workers_,
+                                [&](double f) { return tick(0.75 + 0.15 * f); });
+  }
+
+  bool tick(double fraction) {
+    return monitor_.tick_counting(fraction, [&] { return refine::count_obtuse(mesh_); });
+  }
 
   void record() {
     if (!monitor_.recording()) return;
@@ -146,7 +161,6 @@ class Refinement {
   RefinementOptions options_;
   const parallel::Workers& workers_;
   parallel::Monitor& monitor_;
-  spatial::TriangleBvh bvh_;
   refine::Fidelity fidelity_;
   refine::GlobalDescent descent_;
   int done_ = 0;  // iterations of the descents so far
@@ -154,9 +168,10 @@ class Refinement {
 
 }  // namespace
 
-Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor, mesh::CurveNetwork* curves) {
+Index refine(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+             mesh::EditableMesh& mesh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor,
+             mesh::CurveNetwork* curves) {
   if (mesh.vertex_capacity() != mesh.vertex_count() ||
       mesh.triangle_capacity() != mesh.triangle_count())
     mesh.compact();
@@ -164,7 +179,7 @@ Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
     const refine::AngleTest test({options.min_angle, options.max_angle});
     return static_cast<Index>(refine::triangles_outside(mesh, test).size());
   }
-  Refinement refinement(surface, mesh, options, workers, monitor, curves);
+  Refinement refinement(surface, mesh, bvh, options, workers, monitor, curves);
   const Index outside = refinement.run();
   if (curves) refinement.store_knots(*curves);
   mesh.compact();

@@ -7,6 +7,7 @@
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
@@ -21,10 +22,11 @@ struct RefinementOptions {
 /// vertices and the topology; boundary vertices stay where they are. With `curves` those that have
 /// a knot (surface and mesh are cut along the curves, see EditableMesh::knot) slide along their
 /// curve if they may, all copies of a knot together; their arcs are updated there. Working
-/// coordinates (area / #V = 1). Returns the number of triangles left outside. After a cancellation
-/// the mesh is valid, only not finished.
-Index refine(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-             const RefinementOptions& options, const parallel::Workers& workers,
-             parallel::Monitor& monitor, mesh::CurveNetwork* curves = nullptr);
+/// coordinates (area / #V = 1); `bvh` is that of the surface. Returns the number of triangles left
+/// outside. After a cancellation the mesh is valid, only not finished.
+Index refine(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+             mesh::EditableMesh& mesh, const RefinementOptions& options,
+             const parallel::Workers& workers, parallel::Monitor& monitor,
+             mesh::CurveNetwork* curves = nullptr);
 
 }  // namespace nonobtuse::pipeline

@@ -64,17 +64,21 @@ mesh::EditableMesh sites_and_mesh(const mesh::Surface& surface, Index n,
       .mesh;
 }
 
-// The pipeline on one connected surface, with n vertices.
-mesh::EditableMesh remesh_part(const mesh::Surface& surface, Index n, const RemeshOptions& options,
-                               const parallel::Workers& workers, pipeline::StageClock& clock) {
+// The pipeline on one connected surface, with n vertices. `bvh` becomes the surface's.
+mesh::EditableMesh remesh_part(const mesh::Surface& surface, spatial::TriangleBvh& bvh, Index n,
+                               const RemeshOptions& options, const parallel::Workers& workers,
+                               pipeline::StageClock& clock) {
   parallel::Monitor& monitor = clock.monitor();
   mesh::EditableMesh mesh = sites_and_mesh(surface, n, options, workers, clock);
+  // Not earlier: the tessellation takes most of the memory.
+  bvh = spatial::TriangleBvh(surface.vertices, surface.triangles, workers);
   // After a cancellation what there is goes out at once.
   if (options.method != Method::Default || monitor.cancelled()) return mesh;
   clock.run("valence", 0.5, 0.55,
-            [&] { return pipeline::optimize_valence(surface, mesh, workers, monitor); });
+            [&] { return pipeline::optimize_valence(surface, bvh, mesh, workers, monitor); });
   clock.run("refinement", 0.55, 1, [&] {
-    return pipeline::refine(surface, mesh, pipeline::refinement_options(options), workers, monitor);
+    return pipeline::refine(surface, bvh, mesh, pipeline::refinement_options(options), workers,
+                            monitor);
   });
   return mesh;
 }
@@ -108,9 +112,10 @@ bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& 
       if (remesh_featured(parts[c], vertices[c], options, workers, clock, result)) continue;
       pipeline::NormalizedInput input = pipeline::normalize(parts[c].mesh, vertices[c]);
       pipeline::set_sizes(parts[c].length, input);
+      spatial::TriangleBvh bvh;
       const mesh::EditableMesh mesh =
-          remesh_part(input.surface, vertices[c], options, workers, clock);
-      if (complete) pipeline::append_part(parts[c], input, mesh, workers, result);
+          remesh_part(input.surface, bvh, vertices[c], options, workers, clock);
+      if (complete) pipeline::append_part(parts[c], input, bvh, mesh, workers, result);
     } catch (const TooFewVertices& too_few) {
       parts[c].least = std::max(too_few.least(), vertices[c] + 1);
       complete = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/cleaning.h"
 #include "nonobtuse/error.h"
 #include "nonobtuse/io.h"
 #include "numeric/vec3.h"
@@ -82,6 +83,7 @@ void check_options(const RemeshOptions& options) {
 }
 
 void check_input(const TriangleMesh& input, Method method) {
+  if (mesh::needs_no_repair(input)) return;
   const CleanResult cleaned = clean(input);
   if (!cleaned.kept.empty() && method != Method::Default) {
     const Repair& first = cleaned.kept.front();

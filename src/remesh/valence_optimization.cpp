@@ -13,14 +13,13 @@ constexpr Index kSamplesPerVertex = 3;
 
 }  // namespace
 
-Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-                       const parallel::Workers& workers, parallel::Monitor& monitor,
-                       mesh::CurveNetwork* curves) {
+Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+                       mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                       parallel::Monitor& monitor, mesh::CurveNetwork* curves) {
   refine::ValenceRule rule;
   rule.measure(mesh);
   const auto initial = static_cast<double>(refine::bad_valences(mesh, rule).size());
   if (initial == 0) return 0;
-  const spatial::TriangleBvh bvh(surface.vertices, surface.triangles, workers);
   // Few samples are enough to hold tips and ridges. Planes are searched where edits happen.
   refine::Fidelity fidelity(surface, bvh);
   if (!surface.size.empty()) fidelity.size.measure(mesh);
@@ -37,7 +36,8 @@ Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
   double attempts = 0;
   const Index left = refine::mend_valences(mesh, fidelity, options, false, workers, [&] {
     attempts += 1;
-    return monitor.tick(attempts / (attempts + initial), refine::count_obtuse(mesh));
+    return monitor.tick_counting(attempts / (attempts + initial),
+                                 [&] { return refine::count_obtuse(mesh); });
   });
   if (curves) fidelity.knots.store(*curves);
   mesh.compact();

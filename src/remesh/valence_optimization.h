@@ -7,15 +7,17 @@
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
 /// Brings every interior vertex to valence 5, 6 or 7, and boundary vertices to what the angle of
 /// their sector asks for, by edits that keep the number of vertices and the topology, as far as it
-/// can. With `curves` knots slide as in `refine`. Working coordinates (area / #V = 1). Returns the
-/// number of bad valences left. After a cancellation the mesh is valid, only not finished.
-Index optimize_valence(const mesh::Surface& surface, mesh::EditableMesh& mesh,
-                       const parallel::Workers& workers, parallel::Monitor& monitor,
-                       mesh::CurveNetwork* curves = nullptr);
+/// can. With `curves` knots slide as in `refine`. Working coordinates (area / #V = 1); `bvh` is
+/// that of the surface. Returns the number of bad valences left. After a cancellation the mesh is
+/// valid, only not finished.
+Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh& bvh,
+                       mesh::EditableMesh& mesh, const parallel::Workers& workers,
+                       parallel::Monitor& monitor, mesh::CurveNetwork* curves = nullptr);
 
 }  // namespace nonobtuse::pipeline

@@ -11,7 +11,7 @@ class TriangleBvhBuilder {
  public:
   TriangleBvhBuilder(TriangleBvh& bvh, std::span<const Vec3> vertices,
                      std::span<const Triangle> triangles, const parallel::Workers& workers)
-      : bvh_(bvh), items_(triangles.size()) {
+      : bvh_(bvh), workers_(workers), items_(triangles.size()) {
     workers.for_each(triangles.size(), 4096, [&](std::size_t t) {
       Item& item = items_[t];
       for (const Index v : triangles[t]) item.box.add(vertices[v]);
@@ -22,31 +22,34 @@ class TriangleBvhBuilder {
 
   void build() {
     const Index count = static_cast<Index>(items_.size());
-    bvh_.nodes_.reserve(items_.size());
-    bvh_.nodes_.emplace_back();
+    Box box;
+    for (const Item& item : items_) box.add(item.box);
+    margin_ = margin_of(box);
+    // The top level by level, then what hangs below in parallel. A node's place in memory depends
+    // on the mesh alone.
+    std::vector<Node>& nodes = bvh_.nodes_;
+    nodes.reserve(items_.size());
+    nodes.emplace_back();
     std::vector<Task> tasks{{0, 0, count, 0}};
-    while (!tasks.empty()) {
-      const Task task = tasks.back();
-      tasks.pop_back();
-      Box box;
-      Box centers;
-      for (Index i = task.begin; i < task.end; ++i) {
-        box.add(items_[i].box);
-        centers.add(items_[i].center);
-      }
-      if (task.node == 0) margin_ = margin_of(box);
-      bvh_.nodes_[task.node].box = {box.low - margin_, box.high + margin_};
-      const Index middle = split(task, box, centers);
-      if (middle == task.begin) {
-        bvh_.nodes_[task.node].first = task.begin;
-        bvh_.nodes_[task.node].count = task.end - task.begin;
-        continue;
-      }
-      const Index child = static_cast<Index>(bvh_.nodes_.size());
-      bvh_.nodes_[task.node].first = child;
-      bvh_.nodes_.resize(bvh_.nodes_.size() + 2);
-      tasks.push_back({child + 1, middle, task.end, task.depth + 1});
-      tasks.push_back({child, task.begin, middle, task.depth + 1});
+    while (!tasks.empty() && tasks.size() < kSubtrees && count > kSerial) {
+      std::vector<Index> middle(tasks.size());
+      workers_.for_each(tasks.size(), 1,
+                        [&](std::size_t i) { middle[i] = make_node(tasks[i], nodes); });
+      std::vector<Task> below;
+      for (std::size_t i = 0; i < tasks.size(); ++i)
+        if (middle[i] != tasks[i].begin) add_children(tasks[i], middle[i], nodes, below);
+      tasks.swap(below);
+    }
+    std::vector<std::vector<Node>> subtrees(tasks.size());
+    workers_.for_each(tasks.size(), 1,
+                      [&](std::size_t i) { subtrees[i] = build_subtree(tasks[i]); });
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      // A subtree's root has its place already; its other nodes follow at the end.
+      const Index shift = static_cast<Index>(nodes.size()) - 1;
+      for (Node& node : subtrees[i])
+        if (node.count == 0) node.first += shift;
+      nodes[tasks[i].node] = subtrees[i].front();
+      nodes.insert(nodes.end(), subtrees[i].begin() + 1, subtrees[i].end());
     }
     bvh_.order_.reserve(items_.size());
     for (const Item& item : items_) bvh_.order_.push_back(item.triangle);
@@ -62,6 +65,9 @@ class TriangleBvhBuilder {
     Index node, begin, end;
     int depth;
   };
+  using Node = TriangleBvh::Node;
+  static constexpr std::size_t kSubtrees = 32;
+  static constexpr Index kSerial = 2048;  // triangles that are not worth the threads
   static constexpr int kBins = 16;
   static constexpr int kLeaf = 4;
   static constexpr int kHalveBelow = 48;     // 48 + 31 halvings + 1 < TriangleBvh::kMaxDepth
@@ -74,6 +80,45 @@ class TriangleBvhBuilder {
   }
 
   static double along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+  // Fills the task's node; returns where its items are parted, or its begin for a leaf.
+  Index make_node(const Task& task, std::vector<Node>& nodes) {
+    Box box;
+    Box centers;
+    for (Index i = task.begin; i < task.end; ++i) {
+      box.add(items_[i].box);
+      centers.add(items_[i].center);
+    }
+    nodes[task.node].box = {box.low - margin_, box.high + margin_};
+    const Index middle = split(task, box, centers);
+    if (middle == task.begin) {
+      nodes[task.node].first = task.begin;
+      nodes[task.node].count = task.end - task.begin;
+    }
+    return middle;
+  }
+
+  static void add_children(const Task& task, Index middle, std::vector<Node>& nodes,
+                           std::vector<Task>& tasks) {
+    const Index child = static_cast<Index>(nodes.size());
+    nodes[task.node].first = child;
+    nodes.resize(nodes.size() + 2);
+    tasks.push_back({child + 1, middle, task.end, task.depth + 1});
+    tasks.push_back({child, task.begin, middle, task.depth + 1});
+  }
+
+  std::vector<Node> build_subtree(const Task& root) {
+    std::vector<Node> nodes(1);
+    nodes.reserve(root.end - root.begin);
+    std::vector<Task> tasks{{0, root.begin, root.end, root.depth}};
+    while (!tasks.empty()) {
+      const Task task = tasks.back();
+      tasks.pop_back();
+      const Index middle = make_node(task, nodes);
+      if (middle != task.begin) add_children(task, middle, nodes, tasks);
+    }
+    return nodes;
+  }
 
   // Parts items [begin, end) and returns the first of the second part; `begin` asks for a leaf.
   Index split(const Task& task, const Box& box, const Box& centers) {
@@ -148,6 +193,7 @@ class TriangleBvhBuilder {
   }
 
   TriangleBvh& bvh_;
+  const parallel::Workers& workers_;
   std::vector<Item> items_;
   Vec3 margin_;
 };

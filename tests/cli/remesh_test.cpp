@@ -125,6 +125,51 @@ TEST_F(Remesh, ReportsTheHistoryOfThePapersMethods) {
   EXPECT_EQ(cli::read_file(path("out.off")), cli::read_file(path("again.off")));
 }
 
+// The data and the page that shows them; neither changes the mesh.
+TEST_F(Remesh, WritesAReport) {
+  const std::string in = path("a <b> 'c'.off");  // names that a page and a shell must quote
+  std::filesystem::rename(sample(), path("in.obj"));
+  run_tool({"convert", path("in.obj"), in});
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{in, "-o", path("out.ply"), "--vertices", "500", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_tool(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out + outcome.err, "");
+    return cli::read_file(path("out.ply"));
+  };
+  const std::string plain = run({});
+  EXPECT_TRUE(run({"--report", path("r.json")}) == plain);
+  EXPECT_TRUE(run({"--report", path("r.html")}) == plain);
+  const auto json = nlohmann::json::parse(cli::read_file(path("r.json")), nullptr, false);
+  ASSERT_FALSE(json.is_discarded());
+  EXPECT_EQ(json["input"], in);
+  EXPECT_EQ(json["meshes"]["after"]["vertices"]["shape"], nlohmann::json({500, 3}));
+  EXPECT_EQ(json["meshes"]["before"]["distance"]["shape"][0], json["before_vertices"]);
+  EXPECT_FALSE(json["history"].empty());
+  EXPECT_NE(json["command_line"].get<std::string>().find("'\\''c'\\''"), std::string::npos);
+
+  const std::string page = cli::read_file(path("r.html"));
+  const std::string begin = "<script type=\"application/json\" id=\"report\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  const std::string data = page.substr(from, page.find("</script>", from) - from);
+  const auto shown = nlohmann::json::parse(data, nullptr, false);
+  ASSERT_FALSE(shown.is_discarded());
+  EXPECT_EQ(shown["meshes"], json["meshes"]);
+  EXPECT_EQ(data.find('<'), std::string::npos);
+  EXPECT_EQ(page.find("@REPORT@"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path("r.html.part")));
+}
+
+TEST_F(Remesh, AReportThatCannotBeWrittenIsSaid) {
+  std::filesystem::create_directory(path("r.json.part"));  // where it is written first
+  const Outcome outcome = run_tool({sample(), "-o", path("out.off"), "--vertices", "500", "--quiet",
+                                    "--no-distance", "--report", path("r.json")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(cli::is_one_sentence(outcome));
+  EXPECT_NE(outcome.err.find("r.json"), std::string::npos);
+}
+
 TEST_F(Remesh, ReportsRepairs) {
   // Two triangles of a tetrahedron as they are, one face the wrong way round.
   cli::write_file(path("in.obj"),

@@ -24,7 +24,7 @@ TEST(Help, OfACommandTellsItsOptions) {
     for (const char* option :
          {"--output", "--vertices", "--edge-length", "--method", "--penalty", "--normal-weight",
           "--iterations", "--history", "--min-angle", "--max-angle", "--on-surface", "--seed",
-          "--threads", "--quiet", "--progress", "--json"})
+          "--threads", "--quiet", "--progress", "--json", "--report"})
       EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
   }
 }
@@ -83,6 +83,10 @@ INSTANTIATE_TEST_SUITE_P(
                 {"in.obj", "-o", "o.obj", "--keep-seams", "--features", "none"},
                 "--keep-seams"},
         Mistake{"HistoryWithoutJson", {"in.obj", "-o", "o.obj", "--history"}, "--json"},
+        Mistake{"ReportOfUnknownSuffix", {"in.obj", "-o", "o.obj", "--report", "r.txt"}, "r.txt"},
+        Mistake{"NoFolderForTheReport",
+                {"in.obj", "-o", "o.obj", "--report", "no/r.html"},
+                "no/r.html"},
         Mistake{"MinAngleTooLarge", {"in.obj", "-o", "o.obj", "--min-angle", "60"}, "--min-angle"},
         Mistake{"MaxAngleTooSmall", {"in.obj", "-o", "o.obj", "--max-angle", "60"}, "--max-angle"},
         Mistake{"MaxAngleObtuse", {"certify", "in.obj", "--max-angle", "91"}, "--max-angle"},

@@ -1,5 +1,6 @@
 # Builds and runs the project in consumer/ against the library, the way `way` says:
-# find_package: installed from `build` into a scratch prefix; add_subdirectory: from `source`.
+# find_package: installed from `build` into a scratch prefix, examples/cpp too; add_subdirectory:
+# from `source`.
 cmake_minimum_required(VERSION 3.22)
 
 function(step)
@@ -25,3 +26,9 @@ endif()
 step(${CMAKE_COMMAND} -S ${source}/tests/house/consumer -B ${scratch}/build ${arguments})
 step(${CMAKE_COMMAND} --build ${scratch}/build --target consumer)
 step(${scratch}/build/consumer)
+# The example for users of the installed package.
+if(way STREQUAL "find_package")
+  step(${CMAKE_COMMAND} -S ${source}/examples/cpp -B ${scratch}/example ${arguments})
+  step(${CMAKE_COMMAND} --build ${scratch}/example)
+  step(${scratch}/example/transfer)
+endif()

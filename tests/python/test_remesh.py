@@ -163,7 +163,7 @@ def test_edge_length_in_three_ways():
         ({"edge_length": "thin"}, ValueError, "'1%'"),
         ({"edge_length": -1}, ValueError, "positive"),
         ({"relative_edge_length": float("nan")}, ValueError, "positive"),
-        ({"method": "magic"}, ValueError, "default, cvt, cvt-nob"),
+        ({"method": "magic"}, ValueError, "default, cvt, cvt-fs, cvt-nob"),
         ({"min_angle": 70}, ValueError, "angle"),
         ({"min_angle": "40"}, TypeError, "number"),
         ({"seed": -1}, ValueError, "seed"),

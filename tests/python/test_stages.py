@@ -131,3 +131,50 @@ def test_what_cannot_be_used_is_refused(call):
         call(0 * vertices, faces, vertices)
     coincident = np.concatenate([vertices, vertices])
     assert call(vertices, faces, coincident) is not None
+
+
+def test_local_feature_size_of_a_sphere_is_its_radius(mesh):
+    vertices, faces = sphere(4)
+    sizes = nonobtuse.local_feature_size(3 * vertices + [5, 0, -7], faces, samples=2000)
+    np.testing.assert_allclose(sizes, 3, rtol=0.1)
+    one, two = (nonobtuse.local_feature_size(*mesh, samples=4000, threads=t) for t in (1, 2))
+    assert one.tobytes() == two.tobytes() and 0 < one.min() < one.max() < 1
+    with pytest.raises(nonobtuse.InvalidInput, match="samples"):
+        nonobtuse.local_feature_size(vertices, faces, samples=3)
+    with pytest.raises(nonobtuse.InvalidInput):
+        nonobtuse.local_feature_size(vertices, np.concatenate([faces, faces]))
+
+
+def cube(n):
+    """The unit cube's surface, n x n squares a face, welded."""
+    u = np.arange(n + 1) / n
+    a, b = np.meshgrid(u, u, indexing="ij")
+    flat = np.stack([a, b, np.zeros_like(a)], -1).reshape(-1, 3)
+    i = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    square = np.concatenate([np.stack([i, i + 1, i + n + 2], 1), np.stack([i, i + n + 2, i + n + 1], 1)])
+    points, faces = [], []
+    for k in range(3):
+        for side in (0, 1):
+            p = np.roll(flat, k, axis=1)
+            p[:, (2 + k) % 3] = side
+            f = square if side == 0 else square[:, ::-1]
+            faces.append(f + len(flat) * len(points))
+            points.append(p)
+    vertices, index = np.unique(np.round(np.concatenate(points), 9), axis=0, return_inverse=True)
+    return nonobtuse.clean(vertices, index.ravel()[np.concatenate(faces)])
+
+
+def test_features_of_a_cube_are_its_edges_and_a_sphere_has_none(mesh):
+    surface = cube(6)
+    for angle in (None, 45):
+        edges = nonobtuse.detect_features(*surface, angle=angle)
+        assert edges.shape == (12 * 6, 2) and (edges[:, 0] < edges[:, 1]).all()
+        ends = surface.vertices[edges]
+        assert (((ends == 0) | (ends == 1)).all(axis=1).sum(axis=1) >= 2).all()
+    assert len(nonobtuse.detect_features(*surface, angle=100)) == 0
+    assert len(nonobtuse.detect_features(*sphere(3))) == 0
+    # Of an open surface the boundary.
+    half = surface.faces[surface.vertices[surface.faces].mean(axis=1)[:, 2] < 0.999]
+    assert len(nonobtuse.detect_features(*nonobtuse.clean(surface.vertices, half))) == 12 * 6
+    with pytest.raises(nonobtuse.InvalidInput, match="angle"):
+        nonobtuse.detect_features(*mesh, angle=0)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -163,6 +164,22 @@ TEST(Distance, ScalesShiftsAndThreads) {
   const SurfaceDistance p = measure_distance(permuted(a, 1), permuted(b, 2));
   EXPECT_NEAR(p.rms, d.rms, 1e-3 * d.rms);
   EXPECT_NEAR(p.hausdorff, d.hausdorff, 1e-3 * d.hausdorff);
+}
+
+TEST(Distance, OfEveryVertex) {
+  const TriangleMesh ground = plane(4, 4, 0);
+  TriangleMesh points = plane(4, 4, 3);
+  points.vertices[0] = {-3, 0, -4};
+  const std::vector<double> d = vertex_distances(points, ground);
+  ASSERT_EQ(d.size(), points.vertices.size());
+  EXPECT_EQ(d[0], 5);
+  for (std::size_t v = 1; v < d.size(); ++v) EXPECT_EQ(d[v], 3);
+  // The largest of both sides never exceeds the distance of the surfaces, which takes them in.
+  const TriangleMesh a = icosphere(2), b = transformed(icosphere(3), 1.1, {0.125, 0, 0});
+  const std::vector<double> ab = vertex_distances(a, b);
+  EXPECT_LE(*std::max_element(ab.begin(), ab.end()),
+            measure_distance(a, b).hausdorff_to_reference * (1 + 1e-12));
+  EXPECT_THROW((void)vertex_distances(a, {}), InvalidInput);
 }
 
 TEST(Distance, NeedsTriangles) {

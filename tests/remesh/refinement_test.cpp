@@ -26,8 +26,9 @@ Outcome run(test::Case c, const RefinementOptions& options = {}, int threads = 1
   const parallel::Workers workers(threads);
   parallel::Monitor monitor(context);
   Outcome o;
-  o.bad_valences = pipeline::optimize_valence(c.surface, c.mesh, workers, monitor);
-  o.outside = pipeline::refine(c.surface, c.mesh, options, workers, monitor);
+  const spatial::TriangleBvh bvh(c.surface.vertices, c.surface.triangles, workers);
+  o.bad_valences = pipeline::optimize_valence(c.surface, bvh, c.mesh, workers, monitor);
+  o.outside = pipeline::refine(c.surface, bvh, c.mesh, options, workers, monitor);
   o.mesh = std::move(c.mesh);
   return o;
 }
@@ -201,7 +202,8 @@ TEST(OptimizeValence, MendsRandomFlips) {
     const parallel::Workers workers(1);
     const Context context;
     parallel::Monitor monitor(context);
-    const Index left = pipeline::optimize_valence(c.surface, c.mesh, workers, monitor);
+    const spatial::TriangleBvh bvh(c.surface.vertices, c.surface.triangles, workers);
+    const Index left = pipeline::optimize_valence(c.surface, bvh, c.mesh, workers, monitor);
     EXPECT_EQ(left, 0);
     EXPECT_EQ(test::bad_valence_count(c.mesh), 0);
     EXPECT_EQ(c.mesh.vertex_count(), n);

@@ -1,0 +1,25 @@
+# nonobtuse_embed(SOURCE FILE NAME): writes SOURCE, a C++ file that defines
+# `const std::string_view nonobtuse::tool::NAME[]`, the bytes of FILE (ASCII) in pieces, the last one
+# empty: compilers need not take literals of any length.
+function(nonobtuse_embed source file name)
+  file(READ ${file} text)
+  string(LENGTH "${text}" length)
+  set(code "#include <string_view>\n\nnamespace nonobtuse::tool {\n")
+  string(APPEND code "extern const std::string_view ${name}[];\nconst std::string_view ${name}[] = {\n")
+  set(at 0)
+  while(at LESS length)
+    string(SUBSTRING "${text}" ${at} 16000 piece)
+    string(APPEND code "R\"embedded(${piece})embedded\",\n")
+    math(EXPR at "${at} + 16000")
+  endwhile()
+  string(APPEND code "\"\"};\n}  // namespace nonobtuse::tool\n")
+  # Rewritten only when it changes.
+  set(known "")
+  if(EXISTS ${source})
+    file(READ ${source} known)
+  endif()
+  if(NOT known STREQUAL code)
+    file(WRITE ${source} "${code}")
+  endif()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+endfunction()
