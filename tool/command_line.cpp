@@ -99,6 +99,15 @@ double parse_number(const std::string& text, const std::string& whole, const cha
   return value;
 }
 
+void set_max_error(const std::string& text, RemeshOptions& options) {
+  if (!text.empty() && text.back() == '%') {
+    options.relative_max_error =
+        parse_number(text.substr(0, text.size() - 1), text, "--max-error") / 100;
+  } else {
+    options.max_error = parse_number(text, text, "--max-error");
+  }
+}
+
 void set_edge_length(const std::string& text, RemeshOptions& options) {
   if (!text.empty() && text.back() == '%') {
     options.relative_edge_length =
@@ -184,6 +193,7 @@ void add_threads(CLI::App& command, int& threads) {
 struct Draft {
   RemeshCommand remesh;
   std::optional<std::string> edge_length;
+  std::optional<std::string> max_error;
   std::string method = "default";
   std::string sizing = "uniform";
   std::string features = "auto";
@@ -223,6 +233,11 @@ void add_remesh(CLI::App& app, Draft& draft) {
                   "How fast the target edge length may grow along the surface, per length")
       ->type_name("G")
       ->capture_default_str();
+  command
+      .add_option("--max-error", draft.max_error,
+                  "Add vertices until the two-sided distance to the input, as measured, is at most "
+                  "this length, or 0.2% of the bounding-box diagonal")
+      ->type_name("E");
   command
       .add_option(
           "--features", draft.features,
@@ -268,6 +283,8 @@ void add_remesh(CLI::App& app, Draft& draft) {
   command.add_option("--max-angle", c.options.max_angle, "Every angle below this, degrees")
       ->type_name("DEG")
       ->capture_default_str();
+  command.add_flag("--keep-seams", c.keep_seams,
+                   "Keep the seams of a texture and the borders between face labels as edges");
   command.add_flag("--on-surface", c.options.on_surface,
                    "Keep every vertex on the input, instead of at the offset that minimises the "
                    "distance");
@@ -326,8 +343,9 @@ void add_certify(CLI::App& app, CertifyCommand& c) {
 }
 
 void add_convert(CLI::App& app, ConvertCommand& c) {
-  CLI::App& command =
-      *app.add_subcommand("convert", "Write a mesh in another format, coordinates kept");
+  CLI::App& command = *app.add_subcommand(
+      "convert",
+      "Write a mesh in another format, coordinates kept; attributes where it holds them");
   command.add_option("input", c.input, "Mesh to read")->required()->type_name("FILE");
   command.add_option("output", c.output.path, "File to write: .obj, .off, .ply or .stl")
       ->required()
@@ -373,9 +391,12 @@ CommandLine checked(const CLI::App& app, Draft& draft) {
   if (app.got_subcommand("remesh")) {
     RemeshOptions& options = draft.remesh.options;
     if (draft.edge_length) set_edge_length(*draft.edge_length, options);
+    if (draft.max_error) set_max_error(*draft.max_error, options);
     options.method = parse_method(draft.method);
     set_sizing(draft.sizing, draft.remesh);
     set_features(draft.features, draft.remesh);
+    if (draft.remesh.keep_seams && options.features == Features::None)
+      throw UsageError("--keep-seams makes features of seams; --features none forbids any");
     options.boundary = parse_boundary(draft.boundary);
     if (options.iterations > 0 && options.method == Method::Default)
       throw UsageError("--iterations is for the methods cvt, cvt-fs and cvt-nob only");

@@ -14,9 +14,10 @@
 
 namespace nonobtuse::tool {
 
-void write_output(const OutputOptions& output, const TriangleMesh& mesh) {
+void write_output(const OutputOptions& output, const TriangleMesh& mesh,
+                  const MeshAttributes& attributes) {
   try {
-    write_mesh(output.path, mesh, WriteOptions{!output.ascii});
+    write_mesh(output.path, mesh, attributes, WriteOptions{!output.ascii});
   } catch (const IoError& error) {
     throw OutputError(error.what());
   }
@@ -65,7 +66,7 @@ int run(const CertifyCommand& command) {
 
 int run(const ConvertCommand& command) {
   const ReadResult read = read_mesh(command.input);
-  write_output(command.output, read.mesh);
+  write_output(command.output, read.mesh, read.attributes);
   fmt::print("{}{} written: {} vertices, {} triangles\n", repairs_text(command.input, read.repairs),
              command.output.path, read.mesh.vertices.size(), read.mesh.triangles.size());
   return kDone;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "command_line.h"
+#include "nonobtuse/attributes.h"
 
 namespace nonobtuse::tool {
 
@@ -18,6 +19,7 @@ class OutputError : public std::runtime_error {
 };
 
 /// write_mesh whose IoError becomes an OutputError.
-void write_output(const OutputOptions& output, const TriangleMesh& mesh);
+void write_output(const OutputOptions& output, const TriangleMesh& mesh,
+                  const MeshAttributes& attributes = {});
 
 }  // namespace nonobtuse::tool

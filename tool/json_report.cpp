@@ -171,6 +171,8 @@ Json to_json(const RemeshOptions& options) {
           {"feature_angle", options.feature_angle},
           {"boundary", options.boundary == Boundary::Freeze ? "freeze" : "resample"},
           {"gradation", options.gradation},
+          {"max_error", options.max_error},
+          {"relative_max_error", options.relative_max_error},
           {"min_angle", options.min_angle},
           {"max_angle", options.max_angle},
           {"on_surface", options.on_surface},

@@ -32,6 +32,7 @@ constexpr std::size_t kDistanceLimit = 400'000;
 // What was done and how good it is.
 struct Outcome {
   TriangleMesh input;
+  MeshAttributes attributes;  ///< of the input
   std::vector<Repair> repairs;
   RemeshResult result;
   TriangleMesh written;  ///< the result as a reader of the file sees it
@@ -41,13 +42,14 @@ struct Outcome {
   std::optional<SurfaceDistance> distance;
 };
 
-TriangleMesh read_clean(const std::string& path, std::vector<Repair>& repairs) {
+void read_clean(const std::string& path, Outcome& outcome) {
   ReadResult read = read_mesh(path);
-  repairs = std::move(read.repairs);
-  CleanResult cleaned = clean(read.mesh);
-  repairs.insert(repairs.end(), cleaned.repairs.begin(), cleaned.repairs.end());
-  repairs.insert(repairs.end(), cleaned.kept.begin(), cleaned.kept.end());
-  return std::move(cleaned.mesh);
+  CleanResult cleaned = clean(read.mesh, read.attributes);
+  outcome.repairs = std::move(read.repairs);
+  outcome.repairs.insert(outcome.repairs.end(), cleaned.repairs.begin(), cleaned.repairs.end());
+  outcome.repairs.insert(outcome.repairs.end(), cleaned.kept.begin(), cleaned.kept.end());
+  outcome.input = std::move(cleaned.mesh);
+  outcome.attributes = std::move(cleaned.attributes);
 }
 
 // One positive number for each vertex, separated by white space.
@@ -87,6 +89,7 @@ std::vector<std::array<Index, 2>> read_edges(const std::string& path) {
 }
 
 RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMesh& input,
+                                  const MeshAttributes& attributes,
                                   const std::atomic<bool>& interrupted) {
   const ProgressStyle style = progress_style(command.progress, command.quiet);
   ProgressBar bar(style);
@@ -101,6 +104,9 @@ RemeshResult remesh_with_progress(const RemeshCommand& command, const TriangleMe
   RemeshOptions options = command.options;
   if (!command.sizes.empty()) options.target_lengths = read_lengths(command.sizes);
   if (!command.feature_edges.empty()) options.feature_edges = read_edges(command.feature_edges);
+  if (command.keep_seams)
+    for (const auto& edge : attribute_borders(input, attributes))
+      options.feature_edges.push_back(edge);
   return remesh(input, options, context);
 }
 
@@ -136,6 +142,7 @@ Json json_of(const RemeshCommand& command, const Outcome& outcome, int code, Ind
             {"promise", to_json(outcome.promise, outcome.written, named)},
             {"seconds", outcome.seconds},
             {"stages", to_json(outcome.result.stages)}};
+  if (outcome.result.max_error > 0) json["max_error"] = outcome.result.max_error;
   if (command.options.history) json["history"] = to_json(outcome.result.history);
   if (outcome.distance) json["distance"] = to_json(*outcome.distance);
   return json;
@@ -187,6 +194,8 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
   const SizeRatio& ratio = outcome.result.size_ratio;
   fmt::print("edge length over target: median {:.3f}, 90 % of all in {:.3f} .. {:.3f}\n",
              ratio.median, ratio.percentile_5, ratio.percentile_95);
+  if (outcome.result.max_error > 0)
+    fmt::print("distance to the input at most {:.4g}, as measured\n", outcome.result.max_error);
   const std::string& path = command.output.path;
   fmt::print("{}", certificate_text(path, outcome.written, outcome.goal, kTrianglesNamed));
   // A goal that was missed may still leave the promise kept.
@@ -209,8 +218,8 @@ int run(const RemeshCommand& command) {
   const auto start = std::chrono::steady_clock::now();
   const std::atomic<bool>& interrupted = catch_interrupts();
   Outcome outcome;
-  outcome.input = read_clean(command.input, outcome.repairs);
-  outcome.result = remesh_with_progress(command, outcome.input, interrupted);
+  read_clean(command.input, outcome);
+  outcome.result = remesh_with_progress(command, outcome.input, outcome.attributes, interrupted);
   if (outcome.result.mesh.triangles.empty()) {
     fmt::print(stderr, "nonobtuse: cancelled before there was a mesh; nothing was written.\n");
     return kCancelled;
@@ -219,7 +228,10 @@ int run(const RemeshCommand& command) {
   outcome.written = as_written(command.output.path, outcome.result.mesh, write_options);
   outcome.goal = certify(outcome.written, {command.options.min_angle, command.options.max_angle});
   outcome.promise = certify(outcome.written);
-  write_output(command.output, outcome.result.mesh);
+  MeshAttributes attributes;
+  if (!outcome.attributes.empty())
+    attributes = transfer_attributes(outcome.input, outcome.attributes, outcome.result);
+  write_output(command.output, outcome.result.mesh, attributes);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const int code = exit_code_of(outcome);

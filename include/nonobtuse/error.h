@@ -34,6 +34,19 @@ class TooFewVertices : public InvalidInput {
   Index least_;
 };
 
+/// The distance asked for (RemeshOptions::max_error) was not reached within reason.
+class ErrorBoundNotReached : public InvalidInput {
+ public:
+  ErrorBoundNotReached(const std::string& sentence, double reached)
+      : InvalidInput(sentence), reached_(reached) {}
+
+  /// The least distance that was reached, input units.
+  [[nodiscard]] double reached() const noexcept { return reached_; }
+
+ private:
+  double reached_;
+};
+
 /// A file cannot be opened, read, parsed or written. `what()` names the file (and line, if text).
 class IoError : public std::runtime_error {
  public:

@@ -31,7 +31,7 @@ enum class Features {
   Auto,      ///< creases found by dihedral angle; a smooth surface, coarse or noisy, has none
   None,      ///< no creases
   Dihedral,  ///< edges at which the normal turns by `feature_angle` or more
-  Given,     ///< `feature_edges`
+  Given,     ///< `feature_edges` alone
 };
 
 /// What becomes of the vertices on the boundary of an open surface.
@@ -53,7 +53,8 @@ struct RemeshOptions {
   Features features = Features::Auto;
   /// Features::Dihedral: in degrees, 0 < feature_angle <= 180.
   double feature_angle = 40;
-  /// Features::Given: pairs of input vertices that an edge joins.
+  /// Pairs of input vertices that an edge joins, in addition to the creases that Features::Auto and
+  /// Features::Dihedral find (`attribute_borders` gives those of a texture and labels).
   std::vector<std::array<Index, 2>> feature_edges = {};
   Boundary boundary = Boundary::Resample;
   Sizing sizing = Sizing::Uniform;
@@ -69,6 +70,12 @@ struct RemeshOptions {
   /// Keep every vertex on the input surface instead of at the offset that minimises the distance;
   /// `Method::Default` only.
   bool on_surface = false;
+  /// Bound on the two-sided distance between input and result, measured by sampling as
+  /// `measure_distance` does, in input units; 0 = none. Vertices are added where it is exceeded
+  /// until it holds: `vertices` (or the edge length) is then the start and no promise.
+  double max_error = 0;
+  /// The same relative to the diagonal of the input's bounding box; 0 = none.
+  double relative_max_error = 0;
   /// Weight lambda of the short-dual penalty in `Method::CvtNob` (Eq. 3), times area / vertices.
   double penalty = 0.01;
   /// Weight s of the normal part of the feature-sensitive energy (Eq. 2), at least 1, in

@@ -16,8 +16,11 @@ namespace nonobtuse {
 /// characteristic and boundary loops of the input. Angles that could not be brought inside the
 /// bounds are listed in `result.goal` and `result.certificate`; they are never hidden.
 ///
+/// With a max_error the call is repeated with more vertices where the distance is too large.
+///
 /// Throws InvalidInput if the input or an option is unusable, and its subclass TooFewVertices if
-/// the topology needs more vertices. Thread-safe. Deterministic: same input, options and seed give
+/// the topology needs more vertices, or ErrorBoundNotReached if the distance asked for is out of
+/// reach. Thread-safe. Deterministic: same input, options and seed give
 /// the same result for any number of threads.
 ///
 /// Reference: Yan & Wonka, Non-obtuse Remeshing with Centroidal Voronoi Tessellation, TVCG 2016.

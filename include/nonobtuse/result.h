@@ -51,12 +51,14 @@ struct NarrowCorner {
 };
 
 struct RemeshResult {
-  TriangleMesh mesh;  ///< exactly the vertices asked for; topology of the input
+  TriangleMesh mesh;  ///< exactly the vertices asked for (unless there is a max_error); topology of
+                      ///< the input
   Status status = Status::AnglesRemain;
   Certificate certificate;  ///< against the promise [30, 90)
   Certificate goal;         ///< against the bounds of the options
   AngleQuality angles;
   SizeRatio size_ratio;
+  double max_error = 0;  ///< with RemeshOptions::max_error: the distance measured, at most that
   std::vector<Index> source_triangle;  ///< #V: triangle of the (cleaned) input nearest to a vertex
   std::vector<Vec3> barycentric;       ///< #V by 3: the nearest point's coordinates in it
   /// Edges of the result that make up the creases and boundaries of the input (pairs of vertices,

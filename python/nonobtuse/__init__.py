@@ -13,6 +13,7 @@ run in several threads at once, and the GIL is released while they work.
 
 from typing import TYPE_CHECKING, Any
 
+from ._attributes import Attributes, attribute_borders
 from ._core import version as __version__
 from ._errors import Cancelled, InvalidInput, TooFewVertices
 from ._files import clean, read, sample, write
@@ -43,6 +44,7 @@ def __getattr__(name: str) -> Any:
 
 
 __all__ = [
+    "Attributes",
     "Cancelled",
     "Certificate",
     "CvtEnergy",
@@ -54,6 +56,7 @@ __all__ = [
     "Status",
     "TooFewVertices",
     "__version__",
+    "attribute_borders",
     "certify",
     "clean",
     "cvt_energy",

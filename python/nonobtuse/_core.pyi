@@ -11,8 +11,13 @@ _Mesh = tuple[_Points, _Indices, list[dict[str, Any]]]
 
 version: str
 
-def read(path: bytes, /) -> _Mesh: ...
-def write(path: bytes, vertices: _Points, faces: _Indices, binary: bool, /) -> None: ...
+def read(path: bytes, /) -> tuple[_Mesh, tuple[Any, ...]]: ...
+def write(
+    path: bytes, vertices: _Points, faces: _Indices, attributes: tuple[Any, ...], binary: bool, /
+) -> None: ...
+def attribute_borders(
+    vertices: _Points, faces: _Indices, attributes: tuple[Any, ...], /
+) -> _Indices: ...
 def clean(vertices: _Points, faces: _Indices, /) -> _Mesh: ...
 def sample(resolution: int, /) -> _Mesh: ...
 def measure(
@@ -48,6 +53,8 @@ def remesh(
     sizing: str,
     target_lengths: NDArray[np.float64],
     gradation: float,
+    max_error: float,
+    relative_max_error: float,
     min_angle: float,
     max_angle: float,
     on_surface: bool,
@@ -59,6 +66,7 @@ def remesh(
     threads: int,
     progress: Callable[[str, float, str], object] | None,
     clean: bool,
+    attributes: tuple[Any, ...],
 ) -> dict[str, Any]: ...
 def restricted_voronoi(
     vertices: _Points, faces: _Indices, sites: _Points, localized: bool, threads: int, /

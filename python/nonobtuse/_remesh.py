@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
-from . import _arrays, _core, _quality
+from . import _arrays, _attributes, _core, _quality
 from ._errors import Cancelled, InvalidInput
 from ._results import Certificate, Mesh, Report, Result, Status
 
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from typing import Literal
 
     from numpy.typing import ArrayLike
+
+    from ._attributes import Attributes
 
 _METHODS = ("default", "cvt", "cvt-fs", "cvt-nob")
 _SIZINGS = ("uniform", "lfs", "curvature", "given")
@@ -33,6 +35,8 @@ def remesh(
     sizing: Literal["uniform", "lfs", "curvature", "given"] | None = None,
     target_lengths: ArrayLike | None = None,
     gradation: float = 0.25,
+    max_error: float | str | None = None,
+    relative_max_error: float | None = None,
     features: Literal["auto", "none", "dihedral", "given"] | None = None,
     feature_angle: float = 40,
     feature_edges: ArrayLike | None = None,
@@ -48,6 +52,7 @@ def remesh(
     threads: int = 0,
     progress: Callable[[str, float, str], object] | None = None,
     clean: bool = True,
+    attributes: Attributes | None = None,
 ) -> Result:
     """Remeshes the surface (V, F) so that every angle lies in [min_angle, max_angle) degrees.
 
@@ -62,10 +67,14 @@ def remesh(
         vertices or edge_length also say how many there will be. By default "given" if there are
         target_lengths and else "uniform".
     gradation: bound on the growth of the target edge length along the surface, per length.
+    max_error: bound on the measured two-sided distance to the input, in input units or like "0.2%"
+        of the diagonal of the bounding box (relative_max_error: as a fraction). Vertices are added
+        until it holds; `vertices` is then where to start. ``report["max_error"]`` is the distance.
     features: which edges of the input stay edges, besides its boundary: "auto", sharp creases, of
         which smooth surfaces have none; "none"; "dihedral", edges at which the surface turns by
-        feature_angle degrees or more; "given", feature_edges (n, 2), pairs of vertices of V. By
-        default "given" if there are feature_edges and else "auto".
+        feature_angle degrees or more; "given", feature_edges (n, 2), pairs of vertices of V,
+        alone (with "auto" and "dihedral" in addition). By default "given" if there are
+        feature_edges and else "auto".
     boundary: "resample" moves boundary vertices along the boundary curve, "freeze" keeps exactly
         those of the input.
     min_angle, max_angle: bounds to reach, degrees. The promise is [30, 90).
@@ -79,6 +88,8 @@ def remesh(
     threads: 0 takes all cores; the result does not depend on it.
     progress: called as progress(stage, fraction, message) in this thread; returning False cancels
         (the status says so), an exception cancels and is raised.
+    attributes: colours, texture and labels of (V, F), to be carried over to the result's
+        ``attributes``.
     clean: mend the input first (see `clean`); ``report["repairs"]`` says what was done.
 
     Angles that could not be brought inside the bounds are listed in ``goal`` and ``certificate``.
@@ -97,6 +108,8 @@ def remesh(
         sizing=sizing or ("uniform" if target_lengths is None else "given"),
         target_lengths=target_lengths,
         gradation=gradation,
+        max_error=max_error,
+        relative_max_error=relative_max_error,
         features=features or ("auto" if feature_edges is None else "given"),
         feature_angle=feature_angle,
         feature_edges=feature_edges,
@@ -113,7 +126,10 @@ def remesh(
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be callable, not {progress!r}.")
     count = _arrays.whole_number(threads, "threads")
-    outcome = _core.remesh(*given, **options, threads=count, progress=progress, clean=bool(clean))
+    outcome = _core.remesh(
+        *given, **options, threads=count, progress=progress, clean=bool(clean),
+        attributes=_attributes.to_core(attributes),
+    )
     result = _result(outcome, given, options, start)
     error = outcome["error"]
     if isinstance(error, KeyboardInterrupt):
@@ -134,23 +150,10 @@ def _options(
 ) -> dict[str, Any]:
     if vertices is not None and _arrays.whole_number(vertices, "vertices") == 0:
         raise InvalidInput("vertices must be at least 1, not 0.")
-    if isinstance(edge_length, str):
-        if relative_edge_length is not None or not edge_length.endswith("%"):
-            raise InvalidInput(f"edge_length must be a number or like '1%', not {edge_length!r}.")
-        try:
-            relative_edge_length = float(edge_length[:-1]) / 100
-        except ValueError:
-            raise InvalidInput(f"edge_length must be like '1%', not {edge_length!r}.") from None
-        edge_length = None
-    lengths: dict[str, float] = {"edge_length": 0, "relative_edge_length": 0}
-    for name, length in (
-        ("edge_length", edge_length),
-        ("relative_edge_length", relative_edge_length),
-    ):
-        if length is not None:
-            lengths[name] = _arrays.number(length, name)
-            if not 0 < lengths[name] < float("inf"):
-                raise InvalidInput(f"{name} must be a positive number, not {length!r}.")
+    lengths = {
+        **_length("edge_length", edge_length, relative_edge_length),
+        **_length("max_error", others["max_error"], others["relative_max_error"]),
+    }
     if method not in _METHODS:
         raise InvalidInput(f"method must be one of {', '.join(_METHODS)}, not {method!r}.")
     if sizing not in _SIZINGS:
@@ -180,10 +183,30 @@ def _options(
     }
 
 
+def _length(name: str, value: float | str | None, relative: float | None) -> dict[str, float]:
+    """The length as two options: in input units, or as a fraction of the diagonal; 0 = unset."""
+    if isinstance(value, str):
+        if relative is not None or not value.endswith("%"):
+            raise InvalidInput(f"{name} must be a number or like '1%', not {value!r}.")
+        try:
+            relative = float(value[:-1]) / 100
+        except ValueError:
+            raise InvalidInput(f"{name} must be like '1%', not {value!r}.") from None
+        value = None
+    lengths: dict[str, float] = {name: 0, "relative_" + name: 0}
+    for key, length in ((name, value), ("relative_" + name, relative)):
+        if length is not None:
+            lengths[key] = _arrays.number(length, key)
+            if not 0 < lengths[key] < float("inf"):
+                raise InvalidInput(f"{key} must be a positive number, not {length!r}.")
+    return lengths
+
+
 def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start: float) -> Result:
     result = Result()
     for name in ("vertices", "faces", "source_triangle", "barycentric", "feature_edges"):
         setattr(result, name, outcome[name])
+    result.attributes = _attributes.from_core(outcome["attributes"])
     result.status = Status(outcome["status"])
     result.certificate = Certificate(*outcome["certificate"])
     result.goal = Certificate(*outcome["goal"])
@@ -208,6 +231,8 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         size_ratio=outcome["size_ratio"],
         narrow_corners=outcome["narrow_corners"],
     )
+    if outcome["max_error"] > 0:
+        result.report["max_error"] = outcome["max_error"]
     if options["history"]:
         result.report["history"] = outcome["history"]
     result.report._outcome = (

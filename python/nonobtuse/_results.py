@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ._attributes import Attributes
+
 
 class Status(enum.Enum):
     """How a remeshing call ended."""
@@ -61,22 +63,26 @@ class Report(dict[str, Any]):
 
 
 class Mesh(tuple["NDArray[np.float64]", "NDArray[np.int32]"]):
-    """The pair (vertices, faces): ``V, F = mesh``. ``repairs`` lists what was mended on the way."""
+    """The pair (vertices, faces): ``V, F = mesh``. ``repairs`` lists what was mended on the way,
+    ``attributes`` is what a file says of colours, textures and labels."""
 
     repairs: list[dict[str, Any]]
+    attributes: Attributes | None
 
     def __new__(
         cls,
         vertices: NDArray[np.float64],
         faces: NDArray[np.int32],
         repairs: list[dict[str, Any]] | None = None,
+        attributes: Attributes | None = None,
     ) -> Mesh:
         mesh = super().__new__(cls, (vertices, faces))
         mesh.repairs = [] if repairs is None else repairs
+        mesh.attributes = attributes
         return mesh
 
     def __getnewargs__(self) -> tuple[Any, ...]:
-        return (self[0], self[1], self.repairs)
+        return (self[0], self[1], self.repairs, self.attributes)
 
     @property
     def vertices(self) -> NDArray[np.float64]:
@@ -124,6 +130,7 @@ class Result:
     """A remeshed surface and all that is known of it."""
 
     __slots__ = (
+        "attributes",
         "barycentric",
         "certificate",
         "faces",
@@ -144,6 +151,8 @@ class Result:
     """(n,): the face of ``source`` nearest to each vertex."""
     barycentric: NDArray[np.float64]
     """(n, 3): coordinates of the nearest point in that face."""
+    attributes: Attributes | None
+    """Those given, carried over; None if there were none."""
     feature_edges: NDArray[np.int32]
     """(k, 2): edges of the result that make up the creases and boundaries of the input."""
     source: Mesh
@@ -159,7 +168,7 @@ class Result:
     @property
     def mesh(self) -> Mesh:
         """(vertices, faces), as `write`, `measure` and `certify` take them: ``*result.mesh``."""
-        return Mesh(self.vertices, self.faces)
+        return Mesh(self.vertices, self.faces, None, self.attributes)
 
     def transfer(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values per vertex of ``source`` (n, ...) carried over to the vertices of the result."""

@@ -8,6 +8,7 @@
 
 namespace nonobtuse::python {
 
+void bind_attributes(nb::module_& module);
 void bind_files(nb::module_& module);
 void bind_quality(nb::module_& module);
 void bind_remesh(nb::module_& module);
@@ -18,6 +19,9 @@ nb::dict angles_dict(const AngleQuality& angles);
 nb::list to_list(const std::vector<Repair>& repairs);
 /// (min_angle, max_angle, certified, triangles, too_large, too_small), the lists as arrays.
 nb::tuple to_tuple(Certificate&& certificate);
+/// Attributes of a mesh and back: see attributes.cpp.
+MeshAttributes attributes_of(const nb::tuple& given);
+nb::tuple to_tuple(MeshAttributes&& attributes);
 /// (vertices, faces, repairs)
 nb::tuple to_tuple(TriangleMesh&& mesh, const std::vector<Repair>& repairs);
 

@@ -19,15 +19,17 @@ nb::tuple read(const nb::bytes& path) {
     const nb::gil_scoped_release release;
     read = read_mesh(name);
   }
-  return to_tuple(std::move(read.mesh), read.repairs);
+  return nb::make_tuple(to_tuple(std::move(read.mesh), read.repairs),
+                        to_tuple(std::move(read.attributes)));
 }
 
 void write(const nb::bytes& path, const VertexArray& vertices, const FaceArray& faces,
-           bool binary) {
+           const nb::tuple& attributes_given, bool binary) {
   const std::string name = path_of(path);
   const TriangleMesh mesh = mesh_of(vertices, faces);
+  const MeshAttributes attributes = attributes_of(attributes_given);
   const nb::gil_scoped_release release;
-  write_mesh(name, mesh, {.binary = binary});
+  write_mesh(name, mesh, attributes, {.binary = binary});
 }
 
 nb::tuple clean_arrays(const VertexArray& vertices, const FaceArray& faces) {

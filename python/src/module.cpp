@@ -34,6 +34,7 @@ NB_MODULE(_core, m) {
   using namespace nonobtuse::python;
   nb::register_exception_translator(translate);
   m.attr("version") = NONOBTUSE_VERSION;
+  bind_attributes(m);
   bind_files(m);
   bind_quality(m);
   bind_remesh(m);

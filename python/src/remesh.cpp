@@ -65,24 +65,29 @@ class Watcher {
 struct Outcome {
   std::vector<Repair> repairs;
   TriangleMesh repaired;
+  MeshAttributes attributes;  // of the result
   AngleQuality before;
   RemeshResult result;
 };
 
-Outcome clean_and_remesh(const TriangleMesh& given, bool clean_first, const RemeshOptions& options,
-                         const Context& context, const Watcher& watcher) {
+Outcome clean_and_remesh(const TriangleMesh& given, MeshAttributes attributes, bool clean_first,
+                         const RemeshOptions& options, const Context& context,
+                         const Watcher& watcher) {
   Outcome outcome;
   const TriangleMesh* input = &given;
   if (clean_first) {
-    CleanResult cleaned = clean(given);
+    CleanResult cleaned = clean(given, attributes);
     outcome.repairs = std::move(cleaned.repairs);
     if (!outcome.repairs.empty()) {
       outcome.repaired = std::move(cleaned.mesh);
+      attributes = std::move(cleaned.attributes);
       input = &outcome.repaired;
     }
   }
   try {
     outcome.result = remesh(*input, options, context);
+    if (!attributes.empty())
+      outcome.attributes = transfer_attributes(*input, attributes, outcome.result);
   } catch (...) {
     if (!watcher.failed()) throw;
     outcome.result.status = Status::Cancelled;  // what was raised in Python comes first
@@ -177,11 +182,13 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["before"] = angles_dict(outcome.before);
   d["stages"] = stages;
   d["size_ratio"] = to_dict(result.size_ratio);
+  d["max_error"] = result.max_error;
   d["history"] = history_list(result.history);
   d["repairs"] = to_list(outcome.repairs);
   d["repaired"] = outcome.repairs.empty()
                       ? nb::none()
                       : nb::object(to_tuple(std::move(outcome.repaired), outcome.repairs));
+  d["attributes"] = to_tuple(std::move(outcome.attributes));
   d["error"] = error;
   return d;
 }
@@ -189,12 +196,15 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
 nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Index count,
                        double edge_length, double relative_edge_length, const std::string& method,
                        const std::string& sizing, const LengthArray& target_lengths,
-                       double gradation, const std::string& features, double feature_angle,
+                       double gradation, double max_error, double relative_max_error,
+                       const std::string& features, double feature_angle,
                        const EdgeArray& feature_edges, const std::string& boundary,
                        double min_angle, double max_angle, bool on_surface, double penalty,
                        double normal_weight, int iterations, bool history, std::uint64_t seed,
-                       int threads, nb::object progress, bool clean_first) {
+                       int threads, nb::object progress, bool clean_first,
+                       const nb::tuple& attributes_given) {
   const TriangleMesh given = mesh_of(vertices, faces);
+  MeshAttributes attributes = attributes_of(attributes_given);
   RemeshOptions options;
   options.vertices = count;
   options.edge_length = edge_length;
@@ -204,6 +214,8 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
   options.target_lengths.assign(target_lengths.data(),
                                 target_lengths.data() + target_lengths.shape(0));
   options.gradation = gradation;
+  options.max_error = max_error;
+  options.relative_max_error = relative_max_error;
   options.features = features_of(features);
   options.feature_angle = feature_angle;
   options.feature_edges = rows_of<std::array<Index, 2>>(feature_edges);
@@ -223,7 +235,8 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
   Outcome outcome;
   {
     const nb::gil_scoped_release release;
-    outcome = clean_and_remesh(given, clean_first, options, context, watcher);
+    outcome =
+        clean_and_remesh(given, std::move(attributes), clean_first, options, context, watcher);
   }
   return to_dict(std::move(outcome), watcher.error());
 }
@@ -234,11 +247,12 @@ void bind_remesh(nb::module_& module) {
   module.def("remesh", remesh_arrays, nb::arg(), nb::arg(), nb::kw_only(), nb::arg("vertices"),
              nb::arg("edge_length"), nb::arg("relative_edge_length"), nb::arg("method"),
              nb::arg("sizing"), nb::arg("target_lengths"), nb::arg("gradation"),
-             nb::arg("features"), nb::arg("feature_angle"), nb::arg("feature_edges"),
-             nb::arg("boundary"), nb::arg("min_angle"), nb::arg("max_angle"), nb::arg("on_surface"),
-             nb::arg("penalty"), nb::arg("normal_weight"), nb::arg("iterations"),
-             nb::arg("history"), nb::arg("seed"), nb::arg("threads"), nb::arg("progress").none(),
-             nb::arg("clean"));
+             nb::arg("max_error"), nb::arg("relative_max_error"), nb::arg("features"),
+             nb::arg("feature_angle"), nb::arg("feature_edges"), nb::arg("boundary"),
+             nb::arg("min_angle"), nb::arg("max_angle"), nb::arg("on_surface"), nb::arg("penalty"),
+             nb::arg("normal_weight"), nb::arg("iterations"), nb::arg("history"), nb::arg("seed"),
+             nb::arg("threads"), nb::arg("progress").none(), nb::arg("clean"),
+             nb::arg("attributes"));
 }
 
 }  // namespace nonobtuse::python

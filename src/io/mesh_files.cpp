@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "attributes/validity.h"
 #include "io/file.h"
 #include "io/formats.h"
 #include "nonobtuse/io.h"
@@ -122,14 +123,20 @@ ReadResult read_mesh(const std::string& path) {
 
 std::string write_mesh_to_memory(FileFormat format, const TriangleMesh& mesh,
                                  const WriteOptions& options) {
+  return write_mesh_to_memory(format, mesh, MeshAttributes{}, options);
+}
+
+std::string write_mesh_to_memory(FileFormat format, const TriangleMesh& mesh,
+                                 const MeshAttributes& attributes, const WriteOptions& options) {
   check_writable(mesh, holds_floats(format, options));
+  attributes::require_valid(mesh, attributes);
   switch (format) {
     case FileFormat::Obj:
-      return io::write_obj(mesh);
+      return io::write_obj(mesh, attributes);
     case FileFormat::Off:
       return io::write_off(mesh);
     case FileFormat::Ply:
-      return io::write_ply(mesh, options.binary);
+      return io::write_ply(mesh, attributes, options.binary);
     default:
       return io::write_stl(mesh, options.binary);
   }
@@ -137,6 +144,11 @@ std::string write_mesh_to_memory(FileFormat format, const TriangleMesh& mesh,
 
 void write_mesh(const std::string& path, const TriangleMesh& mesh, const WriteOptions& options) {
   io::write_file(path, write_mesh_to_memory(format_to_write(path), mesh, options));
+}
+
+void write_mesh(const std::string& path, const TriangleMesh& mesh, const MeshAttributes& attributes,
+                const WriteOptions& options) {
+  io::write_file(path, write_mesh_to_memory(format_to_write(path), mesh, attributes, options));
 }
 
 TriangleMesh as_written(const std::string& path, const TriangleMesh& mesh,

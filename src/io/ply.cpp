@@ -1,10 +1,13 @@
 // Stanford PLY (Turk, The PLY polygon file format, 1994): a text header that declares elements and
-// their properties, then the elements in ascii or in binary of either byte order. Whatever is not
-// a vertex's x, y, z or a face's list of vertex indices is skipped.
+// their properties, then the elements in ascii or in binary of either byte order. A vertex's x, y,
+// z, colour and texture coordinates and a face's vertex indices, texture coordinates and label are
+// read under their usual names; all else is skipped.
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -75,7 +78,34 @@ double load_as(Type type, const char* bytes, bool swap) {
   }
 }
 
-enum class Role { Skipped, X, Y, Z, Corners };
+enum class Role { Skipped, X, Y, Z, Red, Green, Blue, Alpha, U, V, Corners, Texture, Label };
+
+struct RoleName {
+  std::string_view name;
+  Role role;
+};
+
+constexpr std::array<RoleName, 17> vertex_roles{{{"x", Role::X},
+                                                 {"y", Role::Y},
+                                                 {"z", Role::Z},
+                                                 {"red", Role::Red},
+                                                 {"green", Role::Green},
+                                                 {"blue", Role::Blue},
+                                                 {"alpha", Role::Alpha},
+                                                 {"r", Role::Red},
+                                                 {"g", Role::Green},
+                                                 {"b", Role::Blue},
+                                                 {"a", Role::Alpha},
+                                                 {"u", Role::U},
+                                                 {"v", Role::V},
+                                                 {"s", Role::U},
+                                                 {"t", Role::V},
+                                                 {"texture_u", Role::U},
+                                                 {"texture_v", Role::V}}};
+constexpr std::array<RoleName, 4> label_names{{{"label", Role::Label},
+                                               {"segment", Role::Label},
+                                               {"group", Role::Label},
+                                               {"material_index", Role::Label}}};
 
 struct Property {
   Role role = Role::Skipped;
@@ -125,10 +155,15 @@ Property read_property(Scanner& scanner, const Element& element) {
   }
   p.type = type_named(scanner);
   const std::string_view name = scanner.word();
-  if (element.is_vertex && !p.is_list && name.size() == 1 && name >= "x" && name <= "z")
-    p.role = name == "x" ? Role::X : name == "y" ? Role::Y : Role::Z;
+  if (element.is_vertex && !p.is_list)
+    for (const RoleName& r : vertex_roles)
+      if (r.name == name) p.role = r.role;
+  if (element.is_face && !p.is_list)
+    for (const RoleName& r : label_names)
+      if (r.name == name) p.role = r.role;
   if (element.is_face && p.is_list && (name == "vertex_indices" || name == "vertex_index"))
     p.role = Role::Corners;
+  if (element.is_face && p.is_list && name == "texcoord") p.role = Role::Texture;
   return p;
 }
 
@@ -260,6 +295,11 @@ class PlyReader {
   void read_element(const Element& element, std::int64_t i) {
     const char* const place = start_of_element();
     Vec3 p;
+    Color color{0, 0, 0, 1};
+    TextureCoordinate texture{};
+    unsigned roles = 0;
+    corners_.clear();
+    face_texture_.clear();
     for (const Property& property : element.properties) {
       if (property.is_list) {
         read_list(property, element, i, place);
@@ -269,8 +309,48 @@ class PlyReader {
       if (property.role == Role::X) p.x = v;
       if (property.role == Role::Y) p.y = v;
       if (property.role == Role::Z) p.z = v;
+      if (property.role >= Role::Red && property.role <= Role::Alpha)
+        color[static_cast<std::size_t>(property.role) - static_cast<std::size_t>(Role::Red)] =
+            v / largest_of(property.type);
+      if (property.role == Role::U) texture[0] = v;
+      if (property.role == Role::V) texture[1] = v;
+      if (property.role == Role::Label && v >= 0 && v < std::numeric_limits<Index>::max())
+        builder_.set_label(static_cast<Index>(v));
+      roles |= 1U << static_cast<unsigned>(property.role);
     }
-    if (element.is_vertex) builder_.add_vertex(p, [&] { return where(place); });
+    const auto has = [&](Role role) { return (roles >> static_cast<unsigned>(role) & 1U) != 0; };
+    if (element.is_vertex) {
+      builder_.add_vertex(p, [&] { return where(place); });
+      if (has(Role::Red) && has(Role::Green) && has(Role::Blue)) builder_.add_color(color);
+      if (has(Role::U) && has(Role::V)) {
+        by_vertex_ = true;
+        builder_.add_texture_coordinate(texture);
+      }
+    }
+    if (element.is_face && has_corners_) add_face();
+  }
+
+  // Texture coordinates of a face's own come before those of its vertices.
+  void add_face() {
+    has_corners_ = false;
+    if (face_texture_.size() == 2 * corners_.size() && !by_vertex_) {
+      texture_.clear();
+      for (std::size_t k = 0; k < corners_.size(); ++k) {
+        texture_.push_back(builder_.texture_coordinate_count());
+        builder_.add_texture_coordinate({face_texture_[2 * k], face_texture_[2 * k + 1]});
+      }
+      builder_.add_face(corners_.data(), corners_.size(), texture_.data());
+      return;
+    }
+    builder_.add_face(corners_.data(), corners_.size(), by_vertex_ ? corners_.data() : nullptr);
+  }
+
+  // What an integer type stands for as a colour; 1 for floats.
+  static double largest_of(Type type) {
+    if (type == Type::Uint8) return 255;
+    if (type == Type::Uint16) return 65535;
+    if (type == Type::Float || type == Type::Double) return 1;
+    return std::ldexp(1.0, static_cast<int>(8 * size_of(type) - 1)) - 1;
   }
 
   const char* start_of_element() {
@@ -287,6 +367,10 @@ class PlyReader {
       throw IoError(fmt::format("{}element {} of '{}' has a list of {} entries, which cannot be.",
                                 where(place), i, printable(element.name), count));
     const auto n = static_cast<std::size_t>(count);
+    if (property.role == Role::Texture) {
+      for (std::size_t k = 0; k < n; ++k) face_texture_.push_back(value(property.type, element, i));
+      return;
+    }
     if (property.role != Role::Corners) {
       for (std::size_t k = 0; k < n; ++k) value(property.type, element, i);
       return;
@@ -303,7 +387,7 @@ class PlyReader {
     }
     if (largest >= builder_.vertex_count())
       face_places_.push_back({builder_.face_count(), largest, place});
-    builder_.add_face(corners_.data(), n);
+    has_corners_ = true;
   }
 
   [[noreturn]] void out_of_range(Index face, double index, const char* place) const {
@@ -320,40 +404,91 @@ class PlyReader {
   bool ascii_ = true;
   bool swap_ = false;
   std::vector<Index> corners_;
+  std::vector<double> face_texture_;
+  std::vector<Index> texture_;
+  bool has_corners_ = false;
+  bool by_vertex_ = false;  // texture coordinates belong to vertices
   std::vector<FacePlace> face_places_;
 };
 
-std::string header_of(const TriangleMesh& mesh, bool binary) {
-  return fmt::format(
+std::string header_of(const TriangleMesh& mesh, const MeshAttributes& attributes, bool alpha,
+                      bool binary) {
+  std::string header = fmt::format(
       "ply\nformat {} 1.0\ncomment by nonobtuse\nelement vertex {}\nproperty double x\n"
-      "property double y\nproperty double z\nelement face {}\n"
-      "property list uchar int vertex_indices\nend_header\n",
-      binary ? "binary_little_endian" : "ascii", mesh.vertices.size(), mesh.triangles.size());
+      "property double y\nproperty double z\n",
+      binary ? "binary_little_endian" : "ascii", mesh.vertices.size());
+  if (!attributes.colors.empty())
+    header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (alpha) header += "property uchar alpha\n";
+  header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n",
+                        mesh.triangles.size());
+  if (!attributes.texture_triangles.empty()) header += "property list uchar float texcoord\n";
+  if (!attributes.labels.empty()) header += "property int label\n";
+  return header + "end_header\n";
+}
+
+// Writes the numbers of one element after the other.
+class PlyWriter {
+ public:
+  PlyWriter(std::string& out, bool binary) : out_(out), binary_(binary) {}
+
+  template <class T>
+  void add(T value) {
+    if (binary_) {
+      store(out_, value);
+      return;
+    }
+    if (!first_) out_ += ' ';
+    first_ = false;
+    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{}"), value);
+  }
+  void end_element() {
+    if (!binary_) out_ += '\n';
+    first_ = true;
+  }
+
+ private:
+  std::string& out_;
+  bool binary_;
+  bool first_ = true;
+};
+
+std::uint8_t byte_of(double channel) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(channel, 0.0, 1.0)));
 }
 
 }  // namespace
 
 ReadResult read_ply(const Source& source) { return PlyReader(source).read(); }
 
-std::string write_ply(const TriangleMesh& mesh, bool binary) {
-  std::string out = header_of(mesh, binary);
-  if (binary) {
-    out.reserve(out.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
-    for (const Vec3& p : mesh.vertices) {
-      store(out, p.x);
-      store(out, p.y);
-      store(out, p.z);
-    }
-    for (const Triangle& t : mesh.triangles) {
-      store(out, std::uint8_t{3});
-      for (const Index v : t) store(out, v);
-    }
-    return out;
+std::string write_ply(const TriangleMesh& mesh, const MeshAttributes& attributes, bool binary) {
+  const bool alpha = std::any_of(attributes.colors.begin(), attributes.colors.end(),
+                                 [](const Color& c) { return c[3] != 1; });
+  std::string out = header_of(mesh, attributes, alpha, binary);
+  out.reserve(out.size() + (binary ? 24 : 56) * mesh.vertices.size() +
+              (binary ? 13 : 22) * mesh.triangles.size());
+  PlyWriter writer(out, binary);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3& p = mesh.vertices[v];
+    for (const double x : {p.x, p.y, p.z}) writer.add(x);
+    if (!attributes.colors.empty())
+      for (std::size_t c = 0; c < (alpha ? 4 : 3); ++c)
+        writer.add(byte_of(attributes.colors[v][c]));
+    writer.end_element();
   }
-  const auto to = std::back_inserter(out);
-  for (const Vec3& p : mesh.vertices) fmt::format_to(to, FMT_COMPILE("{} {} {}\n"), p.x, p.y, p.z);
-  for (const Triangle& t : mesh.triangles)
-    fmt::format_to(to, FMT_COMPILE("3 {} {} {}\n"), t[0], t[1], t[2]);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    writer.add(std::uint8_t{3});
+    for (const Index v : mesh.triangles[t]) writer.add(v);
+    if (!attributes.texture_triangles.empty()) {
+      const Triangle& texture = attributes.texture_triangles[t];
+      writer.add(static_cast<std::uint8_t>(texture[0] < 0 ? 0 : 6));
+      for (const Index i : texture)
+        for (int c = 0; c < 2 && i >= 0; ++c)
+          writer.add(static_cast<float>(attributes.texture_coordinates[i][c]));
+    }
+    if (!attributes.labels.empty()) writer.add(attributes.labels[t]);
+    writer.end_element();
+  }
   return out;
 }
 

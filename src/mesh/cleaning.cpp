@@ -7,6 +7,7 @@
 #include <array>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -87,7 +88,13 @@ class Cleaner {
     join();
     drop_unused_vertices();
     report_kept();
-    return {std::move(mesh_), std::move(repairs_), std::move(kept_)};
+    CleanResult result;
+    result.mesh = std::move(mesh_);
+    result.repairs = std::move(repairs_);
+    result.kept = std::move(kept_);
+    result.source_triangle = std::move(source_);
+    result.source_vertex = std::move(original_);
+    return result;
   }
 
  private:
@@ -244,12 +251,58 @@ class Cleaner {
     for (std::size_t t = mesh_.triangles.size(); t-- > 0;)
       if (has_no_area(static_cast<Index>(t))) first = source_[t];
     if (first < 0) return false;
+    const std::vector<Triangle> before = mesh_.triangles;
     const mesh::DegenerateRemoval removal = mesh::remove_degenerate_faces(mesh_);
+    renew_sources(before);
     report("faces without area removed by flipping their longest edge", removal.flipped, first);
     report("vertices merged to remove faces without area", removal.collapsed, first);
     report("faces without area dropped", removal.dropped - removal.opened, first);
     report("faces without area dropped that leave a slit", removal.opened, first);
     return true;
+  }
+
+  // After edits: the sources of triangles by their vertices; a new one takes that of a face that it
+  // shares an edge with, one with an area if there is any.
+  void renew_sources(const std::vector<Triangle>& before) {
+    const std::vector<Index> sources = std::move(source_);
+    source_.clear();
+    const auto sorted = [](Triangle t) {
+      std::sort(t.begin(), t.end());
+      return t;
+    };
+    std::vector<std::pair<Triangle, Index>> faces;
+    struct EdgeOf {
+      std::array<Index, 2> ends;
+      bool flat;
+      Index triangle;
+      bool operator<(const EdgeOf& o) const {
+        return std::tie(ends, flat, triangle) < std::tie(o.ends, o.flat, o.triangle);
+      }
+    };
+    std::vector<EdgeOf> edges;
+    for (std::size_t t = 0; t < before.size(); ++t) {
+      const Triangle f = sorted(before[t]);
+      const auto index = static_cast<Index>(t);
+      const bool flat =
+          mesh::collinear(mesh_.vertices[f[0]], mesh_.vertices[f[1]], mesh_.vertices[f[2]]);
+      faces.emplace_back(f, index);
+      for (const auto& ends : {std::array{f[0], f[1]}, {f[1], f[2]}, {f[0], f[2]}})
+        edges.push_back({ends, flat, index});
+    }
+    std::sort(faces.begin(), faces.end());
+    std::sort(edges.begin(), edges.end());
+    const auto source_of = [&](const Triangle& f) {
+      const auto face = std::lower_bound(faces.begin(), faces.end(), std::pair(f, Index{0}));
+      if (face != faces.end() && face->first == f) return sources[face->second];
+      for (const bool flat : {false, true})
+        for (const auto& ends : {std::array{f[0], f[1]}, {f[1], f[2]}, {f[0], f[2]}}) {
+          const auto edge = std::lower_bound(edges.begin(), edges.end(), EdgeOf{ends, flat, 0});
+          if (edge != edges.end() && edge->ends == ends && edge->flat == flat)
+            return sources[edge->triangle];
+        }
+      return sources.front();  // no edge left of what was there: any
+    };
+    for (const Triangle& t : mesh_.triangles) source_.push_back(source_of(sorted(t)));
   }
 
   // 1 for every vertex that some triangle names.
@@ -274,16 +327,18 @@ class Cleaner {
     for (Index v = 0; v < vertex_count(); ++v) {
       if (used[v] == 0) continue;
       mesh_.vertices[kept] = mesh_.vertices[v];
+      original_[kept] = original_[v];
       number_of[v] = kept++;
     }
     mesh_.vertices.resize(kept);
+    original_.resize(kept);
     for (Triangle& t : mesh_.triangles)
       for (Index& v : t) v = number_of[v];
   }
 
   TriangleMesh mesh_;
   std::vector<Index> source_;    // number in the input of each triangle left
-  std::vector<Index> original_;  // vertex before `part`
+  std::vector<Index> original_;  // number in the input of each vertex
   std::vector<Repair> repairs_;
   std::vector<Repair> kept_;
 };
@@ -307,8 +362,14 @@ bool mesh::needs_no_repair(const TriangleMesh& mesh) {
 }
 
 CleanResult clean(const TriangleMesh& mesh) {
-  if (mesh::needs_no_repair(mesh)) return {mesh, {}, {}};
-  return Cleaner(mesh).run();
+  if (!mesh::needs_no_repair(mesh)) return Cleaner(mesh).run();
+  CleanResult result;
+  result.mesh = mesh;
+  result.source_triangle.resize(mesh.triangles.size());
+  result.source_vertex.resize(mesh.vertices.size());
+  std::iota(result.source_triangle.begin(), result.source_triangle.end(), Index{0});
+  std::iota(result.source_vertex.begin(), result.source_vertex.end(), Index{0});
+  return result;
 }
 
 }  // namespace nonobtuse

@@ -64,13 +64,18 @@ class Follower {
     if (hit.triangle < 0) return limit;
     started_ = true;
     last_nearest_ = hit.point;
+    last_triangle_ = hit.triangle;
     return hit.squared_distance;
   }
+
+  /// The triangle of the last point found, or one about as near; -1 before.
+  [[nodiscard]] Index last_triangle() const { return last_triangle_; }
 
  private:
   const spatial::TriangleBvh& target_;
   bool started_ = false;
   Vec3 last_nearest_;
+  Index last_triangle_ = -1;
 };
 
 struct Part {
@@ -100,7 +105,9 @@ std::size_t default_samples(const TriangleMesh& a, const TriangleMesh& b) {
 
 OneSidedDistance one_sided_distance(const TriangleMesh& mesh, std::span<const Index> order,
                                     const spatial::TriangleBvh& target, std::size_t samples,
-                                    const parallel::Workers& workers) {
+                                    const parallel::Workers& workers,
+                                    std::vector<TriangleDistance>* by_triangle) {
+  if (by_triangle != nullptr) by_triangle->assign(mesh.triangles.size(), {});
   // Area up to each triangle in `order`: sample s lies at (s + 1/2) / samples of the whole.
   std::vector<double> upto(order.size() + 1, 0);
   for (std::size_t i = 0; i < order.size(); ++i) upto[i + 1] = upto[i] + area_of(mesh, order[i]);
@@ -120,11 +127,19 @@ OneSidedDistance one_sided_distance(const TriangleMesh& mesh, std::span<const In
         Part sum;
         Follower follower(target);
         for (std::size_t i = begin; i < end; ++i) {
+          TriangleDistance worst;  // squared at first
+          const auto visit = [&](const Vec3& p, bool counts) {
+            const double squared = follower.squared_distance(p);
+            sum.add(squared, counts);
+            if (worst.nearest < 0 || squared > worst.distance)
+              worst = {squared, follower.last_triangle()};
+          };
           for (const Index v : mesh.triangles[order[i]])
-            if (first_use[v] == order[i])
-              sum.add(follower.squared_distance(mesh.vertices[v]), false);
+            if (first_use[v] == order[i]) visit(mesh.vertices[v], false);
           sample_triangle(mesh, order[i], samples_before(i + 1) - samples_before(i),
-                          [&](const Vec3& p) { sum.add(follower.squared_distance(p), true); });
+                          [&](const Vec3& p) { visit(p, true); });
+          if (by_triangle != nullptr)
+            (*by_triangle)[order[i]] = {std::sqrt(worst.distance), worst.nearest};
         }
         return sum;
       });

@@ -118,7 +118,7 @@ void find_features(const TriangleMesh& mesh, const RemeshOptions& options,
                    std::vector<Part>& parts) {
   if (options.method != Method::Default) return;
   features::EdgeFlags given(mesh.triangles.size(), 0);
-  if (options.features == Features::Given)
+  if (options.features != Features::None)
     features::flag_edges(mesh.triangles, static_cast<Index>(mesh.vertices.size()),
                          options.feature_edges, given);
   for (Part& part : parts) {

@@ -14,6 +14,7 @@
 #include "parallel/workers.h"
 #include "remesh/certification.h"
 #include "remesh/cvt_optimization.h"
+#include "remesh/error_bound.h"
 #include "remesh/extraction.h"
 #include "remesh/featured_part.h"
 #include "remesh/normalization.h"
@@ -152,12 +153,9 @@ void require_vertices(const std::vector<pipeline::Part>& parts, Index n) {
         least);
 }
 
-}  // namespace
-
-RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
-                    const Context& context) {
-  pipeline::check_options(options);
-  pipeline::check_input(input, options.method);
+// The pipeline on all parts; options and input are fine, and there is no bound on the distance.
+RemeshResult remesh_unbounded(const TriangleMesh& input, const RemeshOptions& options,
+                              const Context& context) {
   const parallel::Workers workers(context.threads);
   std::vector<IterationRecord> history;
   parallel::Monitor monitor(context, options.history ? &history : nullptr);
@@ -192,6 +190,19 @@ RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
   result.history = std::move(history);
   if (monitor.cancelled()) result.status = Status::Cancelled;
   return result;
+}
+
+}  // namespace
+
+RemeshResult remesh(const TriangleMesh& input, const RemeshOptions& options,
+                    const Context& context) {
+  pipeline::check_options(options);
+  pipeline::check_input(input, options.method);
+  if (pipeline::error_bound(input, options) <= 0) return remesh_unbounded(input, options, context);
+  return pipeline::remesh_within(input, options, context,
+                                 [&](const RemeshOptions& with, const Context& within) {
+                                   return remesh_unbounded(input, with, within);
+                                 });
 }
 
 }  // namespace nonobtuse

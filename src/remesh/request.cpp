@@ -57,8 +57,8 @@ void check_options(const RemeshOptions& options) {
   if (!(options.feature_angle > 0 && options.feature_angle <= 180))
     throw InvalidInput(fmt::format("the feature angle must be in (0, 180] degrees, not {}.",
                                    options.feature_angle));
-  if (options.features != Features::Given && !options.feature_edges.empty())
-    throw InvalidInput("feature edges are given, but other features are asked for.");
+  if (options.features == Features::None && !options.feature_edges.empty())
+    throw InvalidInput("feature edges are given, but no features are asked for.");
   if (!(options.gradation > 0))
     throw InvalidInput(fmt::format("the gradation must be positive, not {}.", options.gradation));
   if (options.sizing != Sizing::Given && !options.target_lengths.empty())
@@ -66,6 +66,12 @@ void check_options(const RemeshOptions& options) {
   if (!(options.penalty >= 0) || !std::isfinite(options.penalty))
     throw InvalidInput(
         fmt::format("the penalty must be non-negative and finite, not {}.", options.penalty));
+  for (const double bound : {options.max_error, options.relative_max_error})
+    if (!(bound >= 0) || !std::isfinite(bound))
+      throw InvalidInput(
+          fmt::format("the largest distance must be positive and finite, not {}.", bound));
+  if (options.max_error > 0 && options.relative_max_error > 0)
+    throw InvalidInput("give one bound on the distance, not two.");
   if (!(options.normal_weight >= 1) || !std::isfinite(options.normal_weight))
     throw InvalidInput(fmt::format(
         "the weight of the normal must be at least 1 and finite, not {}.", options.normal_weight));
@@ -94,6 +100,12 @@ void check_input(const TriangleMesh& input, Method method) {
           "the mesh needs repair ({}: {}, the first at index {}): pass it through clean() first.",
           first.what, first.count, first.first),
       first.first);
+}
+
+double error_bound(const TriangleMesh& input, const RemeshOptions& options) {
+  if (options.max_error > 0) return options.max_error;
+  return options.relative_max_error > 0 ? options.relative_max_error * bounding_box_diagonal(input)
+                                        : 0;
 }
 
 Index vertex_budget(const TriangleMesh& input, const RemeshOptions& options) {

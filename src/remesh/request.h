@@ -16,6 +16,9 @@ void check_options(const RemeshOptions& options);
 /// silently. The paper's methods need a manifold.
 void check_input(const TriangleMesh& input, Method method);
 
+/// The distance that the result must keep to, input units; 0 for none.
+double error_bound(const TriangleMesh& input, const RemeshOptions& options);
+
 /// The number of output vertices: given, or from an edge length h as area / (sqrt(3)/2 h^2), the
 /// density of a regular triangulation, or the input's own. At least 4; or 0 where target lengths
 /// are given and nothing else, since they say how many.

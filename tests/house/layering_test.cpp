@@ -14,9 +14,10 @@ namespace {
 
 // Folder of src/ -> height.
 const std::map<std::string, int> kHeights{
-    {"numeric", 0}, {"parallel", 0}, {"mesh", 1},     {"spatial", 1}, {"rvd", 2},
-    {"refine", 3},  {"energy", 3},   {"optimize", 3}, {"rdt", 3},     {"features", 3},
-    {"sizing", 3},  {"remesh", 4},   {"quality", 4},  {"io", 4},      {"sample", 4}};
+    {"numeric", 0},    {"parallel", 0}, {"mesh", 1},     {"spatial", 1},
+    {"attributes", 1}, {"rvd", 2},      {"refine", 3},   {"energy", 3},
+    {"optimize", 3},   {"rdt", 3},      {"features", 3}, {"sizing", 3},
+    {"remesh", 4},     {"quality", 4},  {"io", 4},       {"sample", 4}};
 const std::set<std::string> kBesideRemesh{"quality", "io", "sample"};
 
 // Folders that `file` includes headers of, by its lines #include "folder/...".

@@ -96,3 +96,43 @@ def test_sample_is_closed_and_of_genus_3(mesh):
     assert nonobtuse.measure(*mesh)["topology"]["euler_characteristic"] == -4
     with pytest.raises(nonobtuse.InvalidInput):
         nonobtuse.sample(3)
+
+
+def test_attributes_are_read_carried_over_and_written(mesh, tmp_path):
+    vertices, faces = mesh
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    colors = np.hstack([(vertices - low) / (high - low), np.ones((len(vertices), 1))])
+    labels = (vertices[faces].mean(axis=1)[:, 0] > 0).astype(int)
+    given = nonobtuse.Attributes(colors=colors, labels=labels, label_names=["left", "right"])
+    nonobtuse.write(tmp_path / "in.obj", *mesh, attributes=given)
+    read = nonobtuse.read(tmp_path / "in.obj")
+    np.testing.assert_allclose(read.attributes.colors, colors, atol=1e-15)
+    assert [read.attributes.label_names[i] for i in read.attributes.labels] == [
+        given.label_names[i] for i in labels
+    ]
+    result = nonobtuse.remesh(*read, vertices=700, attributes=read.attributes)
+    carried = result.attributes
+    np.testing.assert_allclose(carried.colors[:, :3], result.transfer(colors[:, :3]), atol=1e-12)
+    assert len(carried.labels) == len(result.faces)
+    assert result.mesh.attributes is carried
+    borders = nonobtuse.attribute_borders(*result.mesh, carried)
+    assert borders.shape[1] == 2 and len(borders) > 0
+    assert nonobtuse.remesh(*mesh, vertices=700).attributes is None
+    with pytest.raises(nonobtuse.InvalidInput):
+        nonobtuse.write(
+            tmp_path / "bad.obj", *mesh, attributes=nonobtuse.Attributes(labels=labels[1:])
+        )
+
+
+def test_the_distance_can_be_bounded(mesh):
+    result = nonobtuse.remesh(*mesh, vertices=700, max_error="1%")
+    distance = nonobtuse.measure(*result.mesh, against=mesh)["distance"]
+    assert result.report["max_error"] == distance["hausdorff"] <= 0.01 * distance["diagonal"]
+
+
+def test_the_history_of_a_method_of_the_paper(mesh):
+    result = nonobtuse.remesh(
+        *mesh, vertices=300, method="cvt-fs", normal_weight=3, iterations=3, history=True
+    )
+    seen = [(r["stage"], r["iteration"]) for r in result.report["history"]]
+    assert seen == [(stage, k) for stage in ("cvt", "feature-sensitive") for k in range(4)]
