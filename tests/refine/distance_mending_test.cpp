@@ -75,7 +75,7 @@ TEST(RidgePoints, SharpEdgesAndVerticesOfTheSurfaceBecomeSamples) {
   const std::size_t before = s.fidelity.samples.size();
   const double half = s.made.surface.vertices[6].x;
   const Index far = s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers,
-                                                    FarRidges::VerticesAndEdges);
+                                                    refine::FarRidges::VerticesAndEdges);
   EXPECT_EQ(static_cast<std::size_t>(far), s.fidelity.samples.size() - before);
   std::size_t corners = 0, on_edges = 0;
   for (std::size_t i = before; i < s.fidelity.samples.size(); ++i) {
@@ -92,7 +92,7 @@ TEST(RidgePoints, SharpEdgesAndVerticesOfTheSurfaceBecomeSamples) {
   // A second time none is added, and their weights grow.
   const double weight = s.fidelity.samples[before].weight;
   EXPECT_EQ(s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers,
-                                            FarRidges::VerticesAndEdges),
+                                            refine::FarRidges::VerticesAndEdges),
             far);
   EXPECT_EQ(s.fidelity.samples.size(), before + static_cast<std::size_t>(far));
   EXPECT_DOUBLE_EQ(s.fidelity.samples[before].weight, 2 * weight);
@@ -103,7 +103,7 @@ TEST(FarPoints, FindsWhatSearchFinds) {
   s.made.mesh.positions[20] *= 1.05;
   s.renew();
   const refine::FarPoints points(s.made.mesh, s.fidelity, 0.01, s.workers,
-                                 FarRidges::VerticesAndEdges);
+                                 refine::FarRidges::VerticesAndEdges);
   ASSERT_FALSE(points.list().empty());
   EXPECT_NEAR(points.list().front().distance, brute_force_distance(s), 0.02);
   for (std::size_t i = 1; i < points.list().size(); ++i)
