@@ -23,7 +23,7 @@ struct RemeshCommand {
   std::string report;         ///< .html or .json; empty: none
   std::string command_line;   ///< as given, to do it again
   std::string sizes;          ///< file of target edge lengths, with Sizing::Given
-  bool keep_seams = false;  ///< borders of labels and seams of textures are features
+  bool keep_seams = false;    ///< borders of labels and seams of textures are features
   std::string feature_edges;  ///< file of pairs of vertices, with Features::Given
   int threads = 0;
   bool quiet = false;        ///< print nothing but errors
