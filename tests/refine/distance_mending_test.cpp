@@ -102,8 +102,7 @@ TEST(FarPoints, FindsWhatSearchFinds) {
   Scene s(test::sphere(32), test::sphere(8));
   s.made.mesh.positions[20] *= 1.05;
   s.renew();
-  const refine::FarPoints points(s.made.mesh, s.fidelity, 0.01, s.workers,
-                                 refine::FarRidges::VerticesAndEdges);
+  const refine::FarPoints points(s.made.mesh, s.fidelity, 0.01, s.workers);
   ASSERT_FALSE(points.list().empty());
   EXPECT_NEAR(points.list().front().distance, brute_force_distance(s), 0.02);
   for (std::size_t i = 1; i < points.list().size(); ++i)
