@@ -83,6 +83,14 @@ void renew(const mesh::EditableMesh& mesh, Fidelity& fidelity,
     if (mesh.alive_triangle(t)) fidelity.update_triangle(mesh, t);
 }
 
+// By vertices: a split renames the other edges of its triangle.
+std::vector<std::pair<Index, Index>> ends_of(const mesh::EditableMesh& mesh,
+                                             const std::vector<mesh::Edge>& sides) {
+  std::vector<std::pair<Index, Index>> ends;
+  for (const mesh::Edge& e : sides) ends.emplace_back(mesh.tail(e), mesh.head(e));
+  return ends;
+}
+
 Index split_side(mesh::EditableMesh& mesh, Knots& knots, const mesh::Edge& side, Index knot) {
   const Index m =
       mesh.split_edge(side, mesh::point_at(knots.curve(knot), knots.all[knot].place.arc));
@@ -110,7 +118,8 @@ std::vector<Index> split_curve(mesh::EditableMesh& mesh, Knots& knots, Index a, 
   const std::vector<mesh::Edge> sides = curve_sides(mesh, knots, a, b);
   const Index knot = knots.insert(gap.middle, gap.before, gap.after);
   std::vector<Index> made;
-  for (const mesh::Edge& side : sides) made.push_back(split_side(mesh, knots, side, knot));
+  for (const auto& [tail, head] : ends_of(mesh, sides))
+    made.push_back(split_side(mesh, knots, mesh.find_edge(tail, head), knot));
   return made;
 }
 
@@ -119,9 +128,9 @@ std::vector<Index> split_curve(mesh::EditableMesh& mesh, Fidelity& fidelity, Ind
   const std::vector<mesh::Edge> sides = curve_sides(mesh, fidelity.knots, a, b);
   const Index knot = fidelity.knots.insert(gap.middle, gap.before, gap.after);
   std::vector<Index> made;
-  for (const mesh::Edge& side : sides) {
+  for (const auto& [tail, head] : ends_of(mesh, sides)) {
+    const mesh::Edge side = mesh.find_edge(tail, head);
     std::vector<Index> concerned{side.triangle};
-    const Index tail = mesh.tail(side), head = mesh.head(side);
     const Index m = split_side(mesh, fidelity.knots, side, knot);
     made.push_back(m);
     fidelity.vertex_planes.emplace_back();
@@ -146,10 +155,13 @@ bool can_collapse_curve(const mesh::EditableMesh& mesh, const Knots& knots, Inde
     return false;
   // Towards the end of a dangling crease both sides would collapse onto one vertex.
   if (knots.all[l].copies.size() < own.copies.size()) return false;
+  std::vector<Index> targets;
   for (const Index c : own.copies) {
     const mesh::Edge e = edge_towards(mesh, c, l);
     if (!e.valid()) return false;
     const Index to = mesh.tail(e) == c ? mesh.head(e) : mesh.tail(e);
+    if (std::find(targets.begin(), targets.end(), to) != targets.end()) return false;
+    targets.push_back(to);
     if (!mesh.can_collapse(e, c) || !keeps_sides(mesh, c, to)) return false;
     bool allowed = true;
     const auto check = [&](Index u) {
@@ -167,7 +179,10 @@ bool can_collapse_curve(const mesh::EditableMesh& mesh, const Knots& knots, Inde
 
 void collapse_curve(mesh::EditableMesh& mesh, Knots& knots, Index removed, Index kept) {
   const Index k = mesh.knot[removed], l = mesh.knot[kept];
-  for (const Index c : knots.all[k].copies) mesh.collapse(edge_towards(mesh, c, l), c);
+  for (const Index c : knots.all[k].copies) {
+    const mesh::Edge e = edge_towards(mesh, c, l);
+    if (e.valid()) mesh.collapse(e, c);
+  }
   knots.remove(k);
 }
 
@@ -175,8 +190,10 @@ void collapse_curve(mesh::EditableMesh& mesh, Fidelity& fidelity, Index removed,
   const Index k = mesh.knot[removed], l = mesh.knot[kept];
   std::vector<Index> concerned;
   for (const Index c : fidelity.knots.all[k].copies) {
+    const mesh::Edge e = edge_towards(mesh, c, l);
+    if (!e.valid()) continue;
     mesh.triangles_around(c, concerned);
-    mesh.collapse(edge_towards(mesh, c, l), c);
+    mesh.collapse(e, c);
     // A side of one triangle hands its samples to what is beside it.
     if (std::none_of(concerned.begin(), concerned.end(),
                      [&](Index t) { return mesh.alive_triangle(t); }))

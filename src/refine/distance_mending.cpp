@@ -17,7 +17,7 @@ constexpr int kSequences = 10;     // of flips
 constexpr int kPairSequences = 6;  // per vertex
 constexpr int kAttempts = 24;      // places
 // Trial passes times vertices, for all places together.
-constexpr Index kEffort = 60000;
+constexpr Index kEffort = 15000;
 constexpr Index kPasses[] = {2, 40}, kThoroughPasses[] = {4, 80};  // per sequence, per attempt
 constexpr double kInOrder = 5.5;   // largest distance to be content with, in root mean squares
 constexpr double kLittle = 0.8;    // distances below this part of what is in order do not count

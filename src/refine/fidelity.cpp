@@ -262,7 +262,11 @@ void Fidelity::redistribute(const mesh::EditableMesh& mesh, std::span<const Inde
       const std::array<Vec3, 3> p = corners(mesh, t);
       double d = TriangleFrame(p[0], p[1], p[2]).closest(samples[s].point).squared_distance;
       if (dot(area_vector(p), normal) < 0) d += 4 * size.area(mesh.triangle(t));
-      if (d < least) least = d, best = t;
+      if (best < 0 || d < least) least = d, best = t;
+    }
+    if (best < 0) {  // nothing is left of these triangles: the sample goes with them
+      s = following;
+      continue;
     }
     samples[s].next = first[best];
     first[best] = s;

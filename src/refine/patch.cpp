@@ -131,12 +131,15 @@ std::vector<Index> apply_edit(mesh::EditableMesh& mesh, Fidelity& fidelity, cons
     fidelity.edge_weights.push_back(0);
     concerned.push_back(t);
   }
-  fidelity.redistribute(mesh, concerned);
-  for (const Index m : made) {
+  // Before samples go to triangles of the new vertex, whose size they ask for.
+  for (std::size_t i = 0; i < made.size(); ++i) {
     fidelity.vertex_planes.emplace_back();
     fidelity.vertex_weights.push_back(0);
     fidelity.size.add_between(edit.a, edit.b);
     fidelity.patches.add_beside(edit.a);
+  }
+  fidelity.redistribute(mesh, concerned);
+  for (const Index m : made) {
     fidelity.update_vertex(mesh, m);
   }
   for (Index t : concerned)
