@@ -25,6 +25,7 @@ struct FeaturePlan {
   features::FeatureGraph graph;  ///< on the surface
   features::VertexBalance balance;
   std::vector<char> frozen;  ///< #curves: every vertex of it stays where it is
+  bool manifold = true;      ///< no edge has three facets, no fans touch: it can do without curves
 };
 
 /// Curves, corners and the share of each curve and patch of `vertices`. Throws TooFewVertices.
@@ -38,7 +39,8 @@ struct GluedMesh {
   std::vector<NarrowCorner> narrow_corners;  ///< of the mesh; what is reached is not known yet
 };
 
-/// Throws TooFewVertices where the topology needs more.
+/// Throws TooFewVertices where the topology needs more. Empty where the vertices are too few to
+/// keep the features of a manifold apart: it is then to be meshed without them.
 GluedMesh remesh_features(const FeaturePlan& plan, Index vertices, const RemeshOptions& options,
                           const parallel::Workers& workers, StageClock& clock);
 

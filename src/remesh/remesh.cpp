@@ -83,16 +83,17 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, spatial::TriangleBv
   return mesh;
 }
 
-// The same for a part with creases or boundaries; false if it has none.
+// The same for a part with creases or boundaries; false if it has none, or more than n vertices can
+// keep apart.
 bool remesh_featured(const pipeline::Part& part, Index n, const RemeshOptions& options,
                      const parallel::Workers& workers, pipeline::StageClock& clock,
                      RemeshResult& result) {
   if (part.features.empty()) return false;
   const pipeline::FeaturePlan plan = pipeline::plan_features(part, n, options);
   if (plan.graph.curves.empty() && part.points.empty()) return false;
-  pipeline::append_part(part, plan.input,
-                        pipeline::remesh_features(plan, n, options, workers, clock), workers,
-                        result);
+  const pipeline::GluedMesh mesh = pipeline::remesh_features(plan, n, options, workers, clock);
+  if (mesh.mesh.triangles.empty()) return false;
+  pipeline::append_part(part, plan.input, mesh, workers, result);
   return true;
 }
 
