@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,27 +13,44 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
-@dataclasses.dataclass(eq=False)
 class Attributes:
     """Colours, texture and labels of a mesh; each may be missing.
 
     A seam is an edge whose two faces disagree on the texture coordinate of an end.
     """
 
-    colors: NDArray[np.float64] | None = None
+    colors: NDArray[np.float64] | None
     """(n, 4): red, green, blue, alpha of each vertex, in [0, 1]."""
-    texture_coordinates: NDArray[np.float64] | None = None
+    texture_coordinates: NDArray[np.float64] | None
     """(t, 2)."""
-    texture_faces: NDArray[np.int32] | None = None
+    texture_faces: NDArray[np.int32] | None
     """(m, 3): the texture coordinate of each corner of each face; -1 where a face has none."""
-    labels: NDArray[np.int32] | None = None
+    labels: NDArray[np.int32] | None
     """(m,): the material, group or segment of each face, >= 0."""
-    label_names: list[str] = dataclasses.field(default_factory=list)
+    label_names: list[str]
     """The name of each label; may be shorter."""
-    labels_are_groups: bool = False
+    labels_are_groups: bool
     """OBJ: ``g`` instead of ``usemtl``."""
-    material_library: str = ""
+    material_library: str
     """OBJ: ``mtllib``."""
+
+    def __init__(
+        self,
+        colors: NDArray[np.float64] | None = None,
+        texture_coordinates: NDArray[np.float64] | None = None,
+        texture_faces: NDArray[np.int32] | None = None,
+        labels: NDArray[np.int32] | None = None,
+        label_names: list[str] | None = None,
+        labels_are_groups: bool = False,
+        material_library: str = "",
+    ) -> None:
+        self.colors = colors
+        self.texture_coordinates = texture_coordinates
+        self.texture_faces = texture_faces
+        self.labels = labels
+        self.label_names = [] if label_names is None else label_names
+        self.labels_are_groups = labels_are_groups
+        self.material_library = material_library
 
 
 def attribute_borders(
