@@ -175,6 +175,7 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
     corners.append(entry);
   }
   d["narrow_corners"] = corners;
+  d["parts_without_features"] = result.parts_without_features;
   d["status"] = name_of(result.status);
   d["certificate"] = to_tuple(std::move(result.certificate));
   d["goal"] = to_tuple(std::move(result.goal));

@@ -140,8 +140,7 @@ class DistanceMender {
   void renew(std::vector<Index> touched) {
     std::erase_if(touched, [&](Index t) { return !mesh_.alive_triangle(t); });
     const std::vector<Index> around = triangles_around(mesh_, dilated(mesh_, touched, 0));
-    fidelity_.emphasize_far_ridges(mesh_, enough_, kNewWeight, 1, workers_,
-                                   FarRidges::VerticesAndEdges, &around);
+    fidelity_.emphasize_far_ridges(mesh_, enough_, kNewWeight, 1, workers_, &around);
     far_points_.update(touched, around);
   }
 
@@ -162,7 +161,7 @@ Index mend_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
   const double enough = kInOrder * std::sqrt(fidelity.mean_square(mesh));
   TrialOptions strict = options;
   strict.promise = strict.goal;
-  fidelity.emphasize_far_ridges(mesh, enough, kNewWeight, 1, workers, FarRidges::VerticesAndEdges);
+  fidelity.emphasize_far_ridges(mesh, enough, kNewWeight, 1, workers);
   DistanceMender mender(mesh, fidelity, strict, enough, workers);
   Index changes = 0;
   std::size_t stuck = 0;  // centers that nothing helped at, among the farthest
