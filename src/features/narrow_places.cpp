@@ -218,10 +218,10 @@ std::pair<Index, Index> edge_ends(const mesh::Surface& surface, Index facet, int
   return std::minmax({t[mesh::next(k)], t[mesh::previous(k)]});
 }
 
-// How sharply the surface turns at each curve: mean of 1 - cosine over its length.
-std::vector<double> mean_turns(const mesh::Surface& surface, const EdgeFlags& flags,
-                               const CurveOfEdge& curve_of, std::size_t curves) {
-  std::vector<double> turn(curves, 0), whole(curves, 0);
+// How much the surface turns at each curve: integral of 1 - cosine over its length.
+std::vector<double> total_turns(const mesh::Surface& surface, const EdgeFlags& flags,
+                                const CurveOfEdge& curve_of, std::size_t curves) {
+  std::vector<double> turn(curves, 0);
   for (Index f = 0; f < static_cast<Index>(flags.size()); ++f)
     for (int k = 0; k < 3; ++k) {
       const Index g = surface.adjacent[f][k];
@@ -230,10 +230,8 @@ std::vector<double> mean_turns(const mesh::Surface& surface, const EdgeFlags& fl
       const auto at = curve_of.find(ends);
       if (at == curve_of.end()) continue;
       const double l = distance(surface.vertices[ends.first], surface.vertices[ends.second]);
-      whole[at->second] += l;
       turn[at->second] += l * (1 - dot(surface.normals[f], surface.normals[g]));
     }
-  for (std::size_t c = 0; c < curves; ++c) turn[c] /= whole[c] > 0 ? whole[c] : 1;
   return turn;
 }
 
@@ -259,7 +257,7 @@ bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph,
     for_each_link(graph.curves[c], [&](Index a, Index b) {
       curve_of[std::minmax({a, b})] = static_cast<Index>(c);
     });
-  const std::vector<double> turn = mean_turns(surface, flags, curve_of, graph.curves.size());
+  const std::vector<double> turn = total_turns(surface, flags, curve_of, graph.curves.size());
   std::vector<std::vector<Index>> across(surface.vertices.size());  // curves near a vertex
   WidthFinder finder(surface, flags, width);
   finder.for_each_place([&](Index v, const WidthFinder::Side& side, double) {
@@ -268,29 +266,33 @@ bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph,
   std::vector<Index> order(graph.curves.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return turn[a] < turn[b]; });
-  std::vector<char> given_up(order.size(), 0);
-  for (const Index c : order) {
+  std::vector<Index> rank(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<Index>(i);
+  CurveOfEdge given_up;
+  for (Index c = 0; c < static_cast<Index>(graph.curves.size()); ++c) {
     const FeatureCurve& curve = graph.curves[c];
     if (curve.boundary || curve.facets != 2) continue;
-    const auto faces_another = [&](Index v) {
+    const auto yields = [&](Index v) {
       return std::any_of(across[v].begin(), across[v].end(),
-                         [&](Index other) { return other != c && given_up[other] == 0; });
+                         [&](Index other) { return rank[other] > rank[c]; });
     };
     double close = 0, whole = 0;
     for_each_link(curve, [&](Index a, Index b) {
       const double l = distance(surface.vertices[a], surface.vertices[b]);
       whole += l;
-      close += 0.5 * l * (faces_another(a) + faces_another(b));
+      if (!yields(a) || !yields(b)) return;
+      close += l;
+      given_up[std::minmax({a, b})] = c;
     });
-    if (close > kMostOfCurve * whole) given_up[c] = 1;
+    if (close > kMostOfCurve * whole)
+      for_each_link(curve, [&](Index a, Index b) { given_up[std::minmax({a, b})] = c; });
   }
   for (Index f = 0; f < static_cast<Index>(flags.size()); ++f)
     for (int k = 0; k < 3; ++k) {
-      const auto at = curve_of.find(edge_ends(surface, f, k));
-      if (at != curve_of.end() && given_up[at->second] != 0)
+      if (given_up.count(edge_ends(surface, f, k)) != 0)
         flags[f] = static_cast<std::uint8_t>(flags[f] & ~(1 << k));
     }
-  return std::find(given_up.begin(), given_up.end(), 1) != given_up.end();
+  return !given_up.empty();
 }
 
 }  // namespace nonobtuse::features
