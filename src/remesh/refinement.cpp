@@ -29,7 +29,7 @@ constexpr double kMostFidelity = 40;
 // Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
 constexpr double kMeanQuality = 0.9465;
 constexpr double kMeanQualityLarge = 0.9425;
-constexpr double kMeanQualitySized = 0.939;  // gradation costs shape
+constexpr double kMeanQualitySized = 0.932;  // gradation costs shape
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
