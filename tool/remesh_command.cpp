@@ -139,6 +139,7 @@ Json json_of(const RemeshCommand& command, const Outcome& outcome, int code, Ind
             {"size_ratio", to_json(outcome.result.size_ratio)},
             {"narrow_corners", to_json(outcome.result.narrow_corners)},
             {"parts_without_features", outcome.result.parts_without_features},
+            {"creases_given_up", outcome.result.creases_given_up},
             {"goal", to_json(outcome.goal, outcome.written, named)},
             {"promise", to_json(outcome.promise, outcome.written, named)},
             {"seconds", outcome.seconds},
@@ -204,6 +205,12 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
   if (!outcome.goal.certified && (goal.min_angle != 30 || goal.max_angle != 90))
     fmt::print("{}", certificate_text(path, outcome.written, outcome.promise, 0));
   print_narrow_corners(outcome);
+  if (const double length = outcome.result.creases_given_up; length > 0)
+    fmt::print(
+        "creases of length {:.4g} were given up: others are nearer than an edge, and the vertices "
+        "too "
+        "few to keep both\n",
+        length);
   if (const Index parts = outcome.result.parts_without_features; parts > 0)
     fmt::print(
         "{} meshed without creases and boundary curves: too few vertices to keep them apart\n",

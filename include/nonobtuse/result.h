@@ -68,6 +68,9 @@ struct RemeshResult {
   /// Connected components whose creases and boundary curves were given up, since the vertices were
   /// too few to keep them apart.
   Index parts_without_features = 0;
+  /// Length of the creases found by Features::Auto that yielded to sharper ones nearer than an
+  /// edge, since the vertices were too few to keep both; input units.
+  double creases_given_up = 0;
   std::vector<StageTime> stages;         ///< in the order they ran; a stage may occur once
   std::vector<IterationRecord> history;  ///< with RemeshOptions::history, in order; else empty
 };

@@ -231,6 +231,7 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         size_ratio=outcome["size_ratio"],
         narrow_corners=outcome["narrow_corners"],
         parts_without_features=outcome["parts_without_features"],
+        creases_given_up=outcome["creases_given_up"],
     )
     if outcome["max_error"] > 0:
         result.report["max_error"] = outcome["max_error"]

@@ -186,6 +186,7 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   }
   d["narrow_corners"] = corners;
   d["parts_without_features"] = result.parts_without_features;
+  d["creases_given_up"] = result.creases_given_up;
   d["status"] = name_of(result.status);
   d["certificate"] = to_tuple(std::move(result.certificate));
   d["goal"] = to_tuple(std::move(result.goal));

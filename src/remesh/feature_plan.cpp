@@ -113,13 +113,17 @@ class Planner {
   FeaturePlan run() {
     if (options_.features == Features::Auto)
       features::flag_coarse_creases(plan_.surface, kFlatWidth * kEdgeLength, plan_.flags);
+    if (!find_curves()) return std::move(plan_);
+    const double found = crease_length();
     // Creases too near each other would take the vertices from everything else.
     for (const double close : kCloseCreases) {
-      if (!find_curves()) return std::move(plan_);
       if (settles() || !may_give_up()) return std::move(plan_);
       give_up_close_creases(close * kEdgeLength);
+      const bool left = find_curves();
+      plan_.given_up = std::max(0.0, found - crease_length()) / plan_.input.map.scale;
+      if (!left) return std::move(plan_);
     }
-    if (find_curves()) settle();
+    settle();
     return std::move(plan_);
   }
 
@@ -136,6 +140,20 @@ class Planner {
                                        [](const auto& curve) { return curve.facets <= 2; });
     find_frozen();
     return true;
+  }
+
+  // Of all curves but boundaries.
+  [[nodiscard]] double crease_length() const {
+    double sum = 0;
+    for (const features::FeatureCurve& curve : plan_.graph.curves) {
+      if (curve.boundary) continue;
+      const std::vector<Index>& v = curve.vertices;
+      for (std::size_t i = 1; i < v.size(); ++i)
+        sum += distance(plan_.surface.vertices[v[i - 1]], plan_.surface.vertices[v[i]]);
+      if (curve.closed)
+        sum += distance(plan_.surface.vertices[v.back()], plan_.surface.vertices[v[0]]);
+    }
+    return sum;
   }
 
   // Shares the vertices out. Returns how many times longer edges become where no features are.

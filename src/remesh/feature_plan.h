@@ -28,6 +28,7 @@ struct FeaturePlan {
   features::FeatureGraph graph;  ///< on the surface
   features::VertexBalance balance;
   std::vector<char> frozen;  ///< #curves: every vertex of it stays where it is
+  double given_up = 0;       ///< length of creases that yielded to nearer ones, input units
   bool manifold = true;      ///< no edge has three facets, no fans touch: it can do without curves
 };
 

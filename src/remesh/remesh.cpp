@@ -86,9 +86,10 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, spatial::TriangleBv
 
 // How the vertices of a part go on its creases and boundaries; nothing if it has none.
 std::optional<pipeline::FeaturePlan> plan_part(const pipeline::Part& part, Index n,
-                                               const RemeshOptions& options) {
+                                               const RemeshOptions& options, RemeshResult& result) {
   if (part.features.empty()) return {};
   pipeline::FeaturePlan plan = pipeline::plan_features(part, n, options);
+  result.creases_given_up += plan.given_up;
   if (plan.graph.curves.empty() && part.points.empty()) return {};
   return plan;
 }
@@ -131,7 +132,7 @@ bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& 
   if (std::any_of(parts.begin(), parts.end(), featured))
     clock.run("features", 0, 1, [&] {
       for (std::size_t c = 0; c < parts.size(); ++c)
-        ask(c, [&] { plans[c] = plan_part(parts[c], vertices[c], options); });
+        ask(c, [&] { plans[c] = plan_part(parts[c], vertices[c], options, result); });
     });
   if (!complete) return false;
 
@@ -163,8 +164,8 @@ void find_least_vertices(std::vector<pipeline::Part>& parts, const RemeshOptions
   for (pipeline::Part& part : parts) {
     for (bool enough = false; !enough;) {
       try {
-        const auto plan = plan_part(part, part.least, options);
         RemeshResult unused;
+        const auto plan = plan_part(part, part.least, options, unused);
         if (plan && remesh_featured(part, *plan, part.least, options, workers, clock, unused))
           break;
         pipeline::NormalizedInput input = pipeline::normalize(part.mesh, part.least);
