@@ -29,9 +29,12 @@ int run_command(int argc, const char* const* argv) {
   return kDone;
 }
 
-// One sentence on one line, whatever the text says.
+// One sentence on one line, whatever the text says: it may quote what was given.
 int fail(int code, std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
+  }
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
     text.pop_back();
   if (text.empty() || text.back() != '.') text += '.';

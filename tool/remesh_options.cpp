@@ -201,7 +201,6 @@ void add_method_options(CLI::App& command, RemeshDraft& draft) {
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
   command.add_option("--penalty", options.penalty, "Weight lambda of the penalty of cvt-nob")
-      ->check(CLI::NonNegativeNumber)
       ->type_name("LAMBDA")
       ->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of the random start")
@@ -255,6 +254,10 @@ RemeshCommand checked(const RemeshDraft& draft) {
   if (command.keep_seams && options.features == Features::None)
     throw UsageError("--keep-seams makes features of seams; --features none forbids any");
   options.boundary = parse_boundary(draft.boundary);
+  if (!(options.penalty >= 0 && options.penalty <= 1e6))
+    throw UsageError(fmt::format("--penalty must be between 0 and 1e6, not {}", options.penalty));
+  if (options.on_surface && options.method != Method::Default)
+    throw UsageError("--on-surface is for the default method only");
   if (options.iterations > 0 && options.method == Method::Default)
     throw UsageError("--iterations is for the methods cvt, cvt-fs and cvt-nob only");
   if (options.history && !command.json && command.report.empty())

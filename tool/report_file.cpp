@@ -6,11 +6,12 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string_view>
 
 #include "commands.h"
+#include "nonobtuse/error.h"
+#include "nonobtuse/io.h"
 
 namespace nonobtuse::tool {
 
@@ -118,17 +119,11 @@ bool is_json(const std::string& path) { return lower_suffix(path) == ".json"; }
 
 void write_report(const std::string& path, const Json& report) {
   const std::string json = report.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const std::string temporary = path + ".part";
-  std::error_code error;
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << (is_html(path) ? page(json) : json + "\n");
-    file.close();
-    if (file) std::filesystem::rename(temporary, path, error);
-    if (file && !error) return;
+  try {
+    write_file(path, is_html(path) ? page(json) : json + "\n");
+  } catch (const IoError& error) {
+    throw OutputError(error.what());
   }
-  std::filesystem::remove(temporary, error);
-  throw OutputError(path + ": the report cannot be written.");
 }
 
 }  // namespace nonobtuse::tool

@@ -68,6 +68,9 @@ std::string write_mesh_to_memory(FileFormat format, const TriangleMesh& mesh,
 TriangleMesh as_written(const std::string& path, const TriangleMesh& mesh,
                         const WriteOptions& options = {});
 
+/// Replaces any file by `bytes`, whole or not at all, as `write_mesh` does. Throws IoError.
+void write_file(const std::string& path, std::string_view bytes);
+
 struct CleanResult {
   TriangleMesh mesh;
   std::vector<Repair> repairs;

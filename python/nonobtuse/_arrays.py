@@ -79,6 +79,8 @@ def lengths(given: ArrayLike | None, name: str) -> NDArray[np.float64]:
 
 def whole_number(given: object, name: str, most: int = _MOST) -> int:
     """An integer in [0, most], numpy's too."""
+    if isinstance(given, (bool, np.bool_)):
+        raise TypeError(f"{name} must be a whole number, not {given!r}.")
     try:
         number = given.__index__()  # type: ignore[attr-defined]
     except AttributeError:

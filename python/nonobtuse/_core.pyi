@@ -15,6 +15,7 @@ def read(path: bytes, /) -> tuple[_Mesh, tuple[Any, ...]]: ...
 def write(
     path: bytes, vertices: _Points, faces: _Indices, attributes: tuple[Any, ...], binary: bool, /
 ) -> None: ...
+def write_file(path: bytes, content: bytes, /) -> None: ...
 def attribute_borders(
     vertices: _Points, faces: _Indices, attributes: tuple[Any, ...], /
 ) -> _Indices: ...
@@ -55,6 +56,10 @@ def remesh(
     gradation: float,
     max_error: float,
     relative_max_error: float,
+    features: str,
+    feature_angle: float,
+    feature_edges: _Indices,
+    boundary: str,
     min_angle: float,
     max_angle: float,
     on_surface: bool,
@@ -67,6 +72,7 @@ def remesh(
     progress: Callable[[str, float, str], object] | None,
     clean: bool,
     attributes: tuple[Any, ...],
+    keep_seams: bool,
 ) -> dict[str, Any]: ...
 def restricted_voronoi(
     vertices: _Points, faces: _Indices, sites: _Points, localized: bool, threads: int, /

@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import _arrays, _attributes, _core, _quality
 from ._errors import Cancelled, InvalidInput
 from ._results import Certificate, Mesh, Report, Result, Status
@@ -32,14 +34,15 @@ def remesh(
     edge_length: float | str | None = None,
     relative_edge_length: float | None = None,
     method: Literal["default", "cvt", "cvt-fs", "cvt-nob"] = "default",
-    sizing: Literal["uniform", "lfs", "curvature", "given"] | None = None,
+    sizing: Literal["uniform", "lfs", "curvature", "given"] | ArrayLike | None = None,
     target_lengths: ArrayLike | None = None,
     gradation: float = 0.25,
     max_error: float | str | None = None,
     relative_max_error: float | None = None,
-    features: Literal["auto", "none", "dihedral", "given"] | None = None,
+    features: Literal["auto", "none", "dihedral", "given"] | float | ArrayLike | None = None,
     feature_angle: float = 40,
     feature_edges: ArrayLike | None = None,
+    keep_seams: bool = False,
     boundary: Literal["resample", "freeze"] = "resample",
     min_angle: float = 40,
     max_angle: float = 80,
@@ -64,8 +67,8 @@ def remesh(
         the feature-sensitive energy, and "cvt-nob", with the short-dual penalty.
     sizing: how the target edge length varies: "uniform"; "lfs", with the root of the local feature
         size; "curvature"; "given", by target_lengths (n,), one for each vertex of V, which without
-        vertices or edge_length also say how many there will be. By default "given" if there are
-        target_lengths and else "uniform".
+        vertices or edge_length also say how many there will be; or these lengths themselves. By
+        default "given" if there are target_lengths and else "uniform".
     gradation: bound on the growth of the target edge length along the surface, per length.
     max_error: bound on the measured two-sided distance to the input, in input units or like "0.2%"
         of the diagonal of the bounding box (relative_max_error: as a fraction). Vertices are added
@@ -73,8 +76,10 @@ def remesh(
     features: which edges of the input stay edges, besides its boundary: "auto", sharp creases, of
         which smooth surfaces have none; "none"; "dihedral", edges at which the surface turns by
         feature_angle degrees or more; "given", feature_edges (n, 2), pairs of vertices of V,
-        alone (with "auto" and "dihedral" in addition). By default "given" if there are
-        feature_edges and else "auto".
+        alone (with "auto" and "dihedral" in addition); or the angle or the pairs themselves. By
+        default "given" if there are feature_edges and else "auto".
+    keep_seams: the seams of a texture and the borders between labels of `attributes` stay edges
+        too.
     boundary: "resample" moves boundary vertices along the boundary curve, "freeze" keeps exactly
         those of the input.
     min_angle, max_angle: bounds to reach, degrees. The promise is [30, 90).
@@ -99,6 +104,14 @@ def remesh(
     holds the best mesh so far.
     """
     start = time.perf_counter()
+    if sizing is not None and not isinstance(sizing, str):
+        sizing, target_lengths = "given", _only(target_lengths, sizing, "target_lengths", "sizing")
+    if features is not None and not isinstance(features, str):
+        if np.ndim(features) == 0:
+            features, feature_angle = "dihedral", _arrays.number(features, "features")
+        else:
+            edges = _only(feature_edges, features, "feature_edges", "features")
+            features, feature_edges = "given", edges
     given = Mesh(_arrays.points(V), _arrays.faces(F))
     options = _options(
         vertices=vertices,
@@ -128,6 +141,7 @@ def remesh(
     count = _arrays.whole_number(threads, "threads")
     outcome = _core.remesh(
         *given, **options, threads=count, progress=progress, clean=bool(clean),
+        keep_seams=bool(keep_seams),
         attributes=_attributes.to_core(attributes),
     )
     result = _result(outcome, given, options, start)
@@ -137,6 +151,12 @@ def remesh(
     if error is not None:
         raise error
     return result
+
+
+def _only(first: ArrayLike | None, second: ArrayLike, *names: str) -> ArrayLike:
+    if first is not None:
+        raise InvalidInput(f"Give either {names[0]} or an array as {names[1]}, not both.")
+    return second
 
 
 def _options(

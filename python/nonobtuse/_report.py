@@ -6,7 +6,6 @@ import base64
 import json
 import os
 import pathlib
-import tempfile
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -68,17 +67,7 @@ def save(path: str | os.PathLike[str], full: dict[str, Any]) -> None:
     if suffix not in (".html", ".json"):
         raise ValueError(f"The name of a report must end in .html or .json, not {name!r}.")
     text = page(full) if suffix == ".html" else json.dumps(full) + "\n"
-    handle, temporary = tempfile.mkstemp(dir=os.path.dirname(name) or ".", suffix=".part")
-    try:
-        with os.fdopen(handle, "w", encoding="ascii") as file:
-            file.write(text)
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)
-        os.replace(temporary, name)
-    except BaseException:
-        os.unlink(temporary)
-        raise
+    _core.write_file(os.fsencode(name), text.encode("ascii"))
 
 
 def _packed_mesh(

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ._errors import InvalidInput
+
 if TYPE_CHECKING:
     import os
 
@@ -172,7 +174,13 @@ class Result:
 
     def transfer(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values per vertex of ``source`` (n, ...) carried over to the vertices of the result."""
-        corners = np.asarray(values)[self.source.faces[self.source_triangle]]
+        values = np.asarray(values)
+        if values.shape[:1] != self.source.vertices.shape[:1]:
+            raise InvalidInput(
+                f"values must have one row for each of the {len(self.source.vertices)} vertices of "
+                f"the source; their shape is {values.shape}."
+            )
+        corners = values[self.source.faces[self.source_triangle]]
         carried: NDArray[Any] = np.einsum("ij,ij...->i...", self.barycentric, corners)
         return carried
 

@@ -32,6 +32,13 @@ void write(const nb::bytes& path, const VertexArray& vertices, const FaceArray& 
   write_mesh(name, mesh, attributes, {.binary = binary});
 }
 
+void write_bytes(const nb::bytes& path, const nb::bytes& bytes) {
+  const std::string name = path_of(path);
+  const std::string_view content(bytes.c_str(), bytes.size());
+  const nb::gil_scoped_release release;
+  write_file(name, content);
+}
+
 nb::tuple clean_arrays(const VertexArray& vertices, const FaceArray& faces) {
   const TriangleMesh mesh = mesh_of(vertices, faces);
   CleanResult cleaned;
@@ -79,6 +86,7 @@ nb::tuple to_tuple(TriangleMesh&& mesh, const std::vector<Repair>& repairs) {
 void bind_files(nb::module_& module) {
   module.def("read", read);
   module.def("write", write);
+  module.def("write_file", write_bytes);
   module.def("clean", clean_arrays);
   module.def("sample", sample);
 }

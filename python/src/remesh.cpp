@@ -3,14 +3,48 @@
 
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "bindings.h"
 
 namespace nonobtuse::python {
 namespace {
+
+// Calls under way. When the interpreter ends they are asked to stop and waited for: a thread that
+// asks for the GIL afterwards would be ended in the middle of C++, and the process with it.
+class Calls {
+ public:
+  static Calls& all() {
+    static Calls calls;
+    return calls;
+  }
+  [[nodiscard]] bool ending() const { return ending_; }
+
+  // At exit.
+  void end() {
+    ending_ = true;
+    const nb::gil_scoped_release release;
+    for (int waited = 0; running_ > 0 && waited < 10'000; ++waited)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+  // A call, from its first line to the last, which both have the GIL.
+  struct Running {
+    Running() { ++all().running_; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() { --all().running_; }
+  };
+
+ private:
+  std::atomic<int> running_{0};
+  std::atomic<bool> ending_{false};
+};
 
 // Hears the progress of a call: looks for signals, tells the user's callback, and keeps what either
 // raised. At most every 20 ms, so that the GIL is not asked for in vain, and when a stage begins.
@@ -20,6 +54,7 @@ class Watcher {
 
   // Called without the GIL. False: stop.
   bool hear(const Progress& progress) {
+    if (Calls::all().ending()) return false;
     const auto now = std::chrono::steady_clock::now();
     if (progress.stage == stage_ && now - heard_ < std::chrono::milliseconds(20)) return true;
     stage_ = progress.stage;
@@ -79,8 +114,23 @@ struct Outcome {
   RemeshResult result;
 };
 
+// Options that speak of vertices of the input speak of those of the cleaned one.
+void follow(const CleanResult& cleaned, std::size_t given, RemeshOptions& options) {
+  std::vector<Index> now(given, -1);
+  for (std::size_t v = 0; v < cleaned.source_vertex.size(); ++v)
+    now[cleaned.source_vertex[v]] = static_cast<Index>(v);
+  if (options.target_lengths.size() == given) {
+    std::vector<double> lengths;
+    for (const Index v : cleaned.source_vertex) lengths.push_back(options.target_lengths[v]);
+    options.target_lengths = std::move(lengths);
+  }
+  for (std::array<Index, 2>& edge : options.feature_edges)
+    for (Index& v : edge)
+      if (v >= 0 && static_cast<std::size_t>(v) < given) v = now[v];
+}
+
 Outcome clean_and_remesh(const TriangleMesh& given, MeshAttributes attributes, bool clean_first,
-                         const RemeshOptions& options, const Context& context,
+                         bool keep_seams, RemeshOptions options, const Context& context,
                          const Watcher& watcher) {
   Outcome outcome;
   const TriangleMesh* input = &given;
@@ -89,11 +139,15 @@ Outcome clean_and_remesh(const TriangleMesh& given, MeshAttributes attributes, b
     outcome.noted = noted(cleaned);
     outcome.mended = !cleaned.repairs.empty();
     if (outcome.mended) {
+      follow(cleaned, given.vertices.size(), options);
       outcome.repaired = std::move(cleaned.mesh);
       attributes = std::move(cleaned.attributes);
       input = &outcome.repaired;
     }
   }
+  if (keep_seams)
+    for (const auto& edge : attribute_borders(*input, attributes))
+      options.feature_edges.push_back(edge);
   try {
     outcome.result = remesh(*input, options, context);
     if (!attributes.empty())
@@ -213,7 +267,8 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
                        double min_angle, double max_angle, bool on_surface, double penalty,
                        double normal_weight, int iterations, bool history, std::uint64_t seed,
                        int threads, nb::object progress, bool clean_first,
-                       const nb::tuple& attributes_given) {
+                       const nb::tuple& attributes_given, bool keep_seams) {
+  const Calls::Running running;
   const TriangleMesh given = mesh_of(vertices, faces);
   MeshAttributes attributes = attributes_of(attributes_given);
   RemeshOptions options;
@@ -246,8 +301,8 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
   Outcome outcome;
   {
     const nb::gil_scoped_release release;
-    outcome =
-        clean_and_remesh(given, std::move(attributes), clean_first, options, context, watcher);
+    outcome = clean_and_remesh(given, std::move(attributes), clean_first, keep_seams,
+                               std::move(options), context, watcher);
   }
   watcher.look_for_signals();
   return to_dict(std::move(outcome), watcher.error());
@@ -256,6 +311,7 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
 }  // namespace
 
 void bind_remesh(nb::module_& module) {
+  nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { Calls::all().end(); }));
   module.def("remesh", remesh_arrays, nb::arg(), nb::arg(), nb::kw_only(), nb::arg("vertices"),
              nb::arg("edge_length"), nb::arg("relative_edge_length"), nb::arg("method"),
              nb::arg("sizing"), nb::arg("target_lengths"), nb::arg("gradation"),
@@ -264,7 +320,7 @@ void bind_remesh(nb::module_& module) {
              nb::arg("min_angle"), nb::arg("max_angle"), nb::arg("on_surface"), nb::arg("penalty"),
              nb::arg("normal_weight"), nb::arg("iterations"), nb::arg("history"), nb::arg("seed"),
              nb::arg("threads"), nb::arg("progress").none(), nb::arg("clean"),
-             nb::arg("attributes"));
+             nb::arg("attributes"), nb::arg("keep_seams"));
 }
 
 }  // namespace nonobtuse::python

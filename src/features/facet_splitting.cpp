@@ -12,6 +12,8 @@ namespace nonobtuse::features {
 
 namespace {
 
+constexpr double kMostFacets = 16;  // per facet of the input and vertex of the result
+
 class Splitter {
  public:
   Splitter(const std::vector<Vec3>& vertices, std::vector<EdgeVertex> inserted)
@@ -135,7 +137,9 @@ ResolvedSurface resolve_surface(const mesh::Surface& surface, const EdgeFlags& f
   SplitFacets facets{surface.triangles, flags, {}};
   facets.facet.resize(facets.triangles.size());
   std::iota(facets.facet.begin(), facets.facet.end(), 0);
-  for (;;) {
+  // On a needle, edges as short as its neighbours' would be more than anything else needs.
+  const double most = kMostFacets * (static_cast<double>(surface.triangles.size()) + surface.area);
+  while (static_cast<double>(facets.triangles.size()) < most) {
     std::vector<EdgeVertex> inserted =
         long_edges(facets.triangles, facets.flags, bound, feature_bound, vertices, size);
     if (inserted.empty()) break;

@@ -34,7 +34,7 @@ struct ResolvedSurface {
 };
 
 /// Bisects edges until none is longer than `bound`, and no feature edge longer than
-/// `feature_bound` (working units, times the local size).
+/// `feature_bound` (working units, times the local size), or there are very many facets.
 ResolvedSurface resolve_surface(const mesh::Surface& surface, const EdgeFlags& flags, double bound,
                                 double feature_bound);
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "nonobtuse/error.h"
+#include "nonobtuse/io.h"
 
 namespace nonobtuse::io {
 
@@ -20,8 +21,36 @@ struct Closer {
 };
 using File = std::unique_ptr<std::FILE, Closer>;
 
+constexpr int kMostLinks = 40;
+
 [[noreturn]] void fail(const std::string& path, const char* verb, int error) {
   throw IoError(path + ": cannot " + verb + ": " + std::strerror(error) + ".");
+}
+
+// What a symbolic link leads to, though there may be nothing yet.
+fs::path behind_links(const std::string& path) {
+  fs::path target = path;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(target, error); ++links) {
+    if (links == kMostLinks) fail(path, "write", ELOOP);
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) fail(path, "write", error.value());
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target;
+}
+
+// A file that is replaced keeps its permissions, and one that must not be written stays.
+void take_permissions(const fs::path& target, const std::string& path,
+                      const std::string& temporary) {
+  std::error_code error;
+  if (!fs::exists(target, error)) return;
+  if (!File(std::fopen(target.string().c_str(), "r+b"))) {
+    const int cause = errno;
+    std::remove(temporary.c_str());
+    fail(path, "write", cause);
+  }
+  fs::permissions(temporary, fs::status(target, error).permissions(), error);
 }
 
 // Creates a file that did not exist, beside `target`; `name` gets its name.
@@ -69,11 +98,7 @@ std::string read_file(const std::string& path) {
 
 void write_file(const std::string& path, std::string_view bytes) {
   std::error_code error;
-  fs::path target = path;
-  if (fs::is_symlink(target, error)) {
-    const fs::path resolved = fs::weakly_canonical(target, error);
-    if (!error) target = resolved;
-  }
+  const fs::path target = behind_links(path);
   if (fs::is_directory(target, error)) throw IoError(path + ": cannot write: this is a directory.");
   const fs::path directory = target.parent_path();
   if (!directory.empty() && !fs::is_directory(directory, error))
@@ -86,6 +111,7 @@ void write_file(const std::string& path, std::string_view bytes) {
   }
   std::string temporary;
   File file = create_beside(target, path, temporary);
+  take_permissions(target, path, temporary);
   if (!write_all(std::move(file), bytes)) {
     const int cause = errno;
     std::remove(temporary.c_str());
@@ -99,3 +125,9 @@ void write_file(const std::string& path, std::string_view bytes) {
 }
 
 }  // namespace nonobtuse::io
+
+namespace nonobtuse {
+
+void write_file(const std::string& path, std::string_view bytes) { io::write_file(path, bytes); }
+
+}  // namespace nonobtuse

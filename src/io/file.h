@@ -10,8 +10,8 @@ namespace nonobtuse::io {
 std::string read_file(const std::string& path);
 
 /// Replaces the file by `bytes`: written beside it under a temporary name, then renamed, so that
-/// no reader ever sees half a file; on failure nothing is left behind. Symbolic links are followed;
-/// devices and pipes are written directly. Throws IoError.
+/// no reader ever sees half a file; on failure nothing is left behind. Symbolic links are followed,
+/// permissions kept; devices and pipes are written directly. Throws IoError.
 void write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace nonobtuse::io

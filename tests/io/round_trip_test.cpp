@@ -140,6 +140,34 @@ TEST_F(Files, LinksAreFollowed) {
   expect_same(read_mesh(path("real.obj")).mesh, other);
 }
 
+TEST_F(Files, LinksToNothingYetAreFollowedAndLoopsRefused) {
+  const TriangleMesh mesh = random_mesh(1, true);
+  fs::create_symlink("real.obj", path("link.obj"));  // beside the link
+  write_mesh(path("link.obj"), mesh);
+  EXPECT_TRUE(fs::is_symlink(path("link.obj")));
+  expect_same(read_mesh(path("real.obj")).mesh, mesh);
+  fs::create_symlink("b.obj", path("a.obj"));
+  fs::create_symlink("a.obj", path("b.obj"));
+  EXPECT_THROW(write_mesh(path("a.obj"), mesh), IoError);
+}
+
+TEST_F(Files, PermissionsAreKept) {
+  const TriangleMesh mesh = random_mesh(1, true);
+  write_mesh(path("a.obj"), mesh);
+  const fs::perms secret = fs::perms::owner_read | fs::perms::owner_write;
+  fs::permissions(path("a.obj"), secret);
+  write_mesh(path("a.obj"), random_mesh(2, true));
+  EXPECT_EQ(fs::status(path("a.obj")).permissions(), secret);
+}
+
+TEST_F(Files, AnyFileIsWrittenWholeBesideOthers) {
+  write_file(path("a.html.part"), "precious");
+  write_file(path("a.html"), "page");
+  EXPECT_EQ(fs::file_size(path("a.html")), 4u);
+  EXPECT_EQ(fs::file_size(path("a.html.part")), 8u);
+  EXPECT_EQ(entries(), 2u);
+}
+
 TEST_F(Files, ContentWinsOverSuffix) {
   const TriangleMesh mesh = random_mesh(3, true);
   for (const FileFormat format :

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -121,3 +122,16 @@ def test_arrays_are_not_kept(mesh):
             nonobtuse.remesh(vertices, faces, vertices=3, progress=callback)
     assert (sys.getrefcount(vertices), sys.getrefcount(faces)) == before
     assert sys.getrefcount(callback) == callback_before
+
+
+def test_the_interpreter_may_end_while_a_thread_remeshes():
+    script = (
+        "import nonobtuse, threading, time\n"
+        "V, F = nonobtuse.sample(48)\n"
+        "def work():\n"
+        "    nonobtuse.remesh(V, F, vertices=8000)\n"
+        "threading.Thread(target=work, daemon=True).start()\n"
+        "time.sleep(0.3)\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=60)
+    assert (ended.returncode, ended.stderr) == (0, b"")

@@ -54,6 +54,11 @@ def test_the_report_is_json(result):
     assert {"cvt", "extraction", "certification"} <= {s["stage"] for s in report["stages"]}
 
 
+def test_transfer_wants_a_value_for_each_vertex(result):
+    with pytest.raises(nonobtuse.InvalidInput, match="one row for each"):
+        result.transfer(np.zeros(5))
+
+
 def test_results_survive_pickling(result):
     copy = pickle.loads(pickle.dumps(result))
     np.testing.assert_array_equal(copy.vertices, result.vertices)
@@ -106,6 +111,15 @@ def test_every_option_of_the_library_is_a_keyword():
     assert {"threads", "progress", "clean"} <= set(keywords)
 
 
+def test_every_option_of_the_tool_is_a_keyword():
+    table = (ROOT / "README.md").read_text().split("| option of `remesh` |")[1].split("\n\n")[0]
+    cells = [row.split(" | ")[0] for row in table.splitlines()]
+    options = {o[2:].replace("-", "_") for o in re.findall(r"--[a-z][a-z-]*", " ".join(cells))}
+    printing = {"no_distance", "ascii", "json", "report", "quiet"}
+    assert len(options) > 20
+    assert options - printing <= set(inspect.signature(nonobtuse.remesh).parameters)
+
+
 @pytest.mark.parametrize("sizing", ["lfs", "curvature"])
 def test_sizing_by_name(mesh, sizing):
     result = nonobtuse.remesh(*mesh, vertices=700, sizing=sizing)
@@ -127,6 +141,69 @@ def test_target_lengths():
         nonobtuse.remesh(vertices, faces, vertices=900, target_lengths=lengths[:-1])
     with pytest.raises(nonobtuse.InvalidInput):
         nonobtuse.remesh(vertices, faces, vertices=900, sizing="square")
+
+
+def box():
+    """A cube of six squares of 8 by 8, welded: every edge of the cube is a chain of edges."""
+    n = 8
+    grid = np.stack(np.meshgrid(*[np.arange(n + 1)] * 2, indexing="ij"), -1).reshape(-1, 2) / n
+    quads = [
+        (i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1)
+        for i in range(n)
+        for j in range(n)
+    ]
+    square = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+    points, faces = [], []
+    for axis in range(3):
+        for side in (0, 1):
+            points.append(np.insert(grid, axis, side, axis=1))
+            flip = (side == 0) != (axis == 1)
+            faces.append((square[:, ::-1] if flip else square) + 81 * len(faces))
+    unique, inverse = np.unique(np.concatenate(points), axis=0, return_inverse=True)
+    return unique, inverse.reshape(-1)[np.concatenate(faces)]
+
+
+def test_features_and_sizing_by_value():
+    vertices, faces = box()
+    on_edge = (np.isin(vertices, (0, 1)).sum(axis=1) >= 2).nonzero()[0]
+    pairs = np.array([e for e in nonobtuse.detect_features(vertices, faces)])
+    assert set(pairs.ravel()) == set(on_edge)
+    by_angle = nonobtuse.remesh(vertices, faces, vertices=500, features=30)
+    by_name = nonobtuse.remesh(
+        vertices, faces, vertices=500, features="dihedral", feature_angle=30
+    )
+    assert np.array_equal(by_angle.vertices, by_name.vertices)
+    by_pairs = nonobtuse.remesh(vertices, faces, vertices=500, features=pairs)
+    assert len(by_pairs.feature_edges) > 12
+    lengths = np.full(len(vertices), 0.1)
+    by_array = nonobtuse.remesh(vertices, faces, sizing=lengths)
+    named = nonobtuse.remesh(vertices, faces, target_lengths=lengths)
+    assert np.array_equal(by_array.vertices, named.vertices)
+    with pytest.raises(nonobtuse.InvalidInput, match="not both"):
+        nonobtuse.remesh(vertices, faces, sizing=lengths, target_lengths=lengths)
+
+
+def test_options_follow_the_vertices_through_cleaning():
+    vertices, faces = box()
+    pairs = nonobtuse.detect_features(vertices, faces)
+    lengths = 0.08 + 0.04 * vertices[:, 2]
+    clean = nonobtuse.remesh(vertices, faces, feature_edges=pairs, target_lengths=lengths)
+    unused = np.concatenate([[[9.0, 9, 9]], vertices])  # every vertex has the next number
+    given = nonobtuse.remesh(
+        unused, faces + 1, feature_edges=pairs + 1, target_lengths=np.insert(lengths, 0, 7)
+    )
+    assert np.array_equal(given.vertices, clean.vertices)
+
+
+def test_keep_seams_keeps_borders_of_labels():
+    vertices, faces = sphere(3)
+    labels = (vertices[faces].mean(axis=1)[:, 2] > 0).astype(np.int32)
+    attributes = nonobtuse.Attributes(labels=labels)
+    kept = nonobtuse.remesh(
+        vertices, faces, vertices=600, attributes=attributes, keep_seams=True
+    )
+    assert len(kept.feature_edges) > 10
+    assert len(nonobtuse.remesh(vertices, faces, vertices=600).feature_edges) == 0
 
 
 @pytest.mark.parametrize("method", ["cvt", "cvt-nob"])
@@ -157,6 +234,7 @@ def test_edge_length_in_three_ways():
     [
         ({"vertices": 12.5}, TypeError, "whole number"),
         ({"vertices": "many"}, TypeError, "whole number"),
+        ({"vertices": True}, TypeError, "whole number"),
         ({"vertices": 0}, ValueError, "at least 1"),
         ({"vertices": -3}, ValueError, "between 0"),
         ({"vertices": 2**40}, ValueError, "between 0"),
