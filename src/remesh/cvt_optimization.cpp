@@ -197,9 +197,13 @@ void insert_midpoints(const mesh::Surface& surface, const Components& components
   sort_along_curve(sites);
 }
 
+bool is_started(const CvtOptions& options, const std::vector<Index>& quota) {
+  return quota.size() == 1 && static_cast<Index>(options.start.size()) == quota[0];
+}
+
 Sites first_sites(const mesh::Surface& surface, const Components& components,
                   const std::vector<Index>& quota, const CvtOptions& options) {
-  if (quota.size() == 1 && static_cast<Index>(options.start.size()) == quota[0])
+  if (is_started(options, quota))
     return {options.start, std::vector<Index>(options.start.size(), 0)};
   SampledSites samples = sample_strata(surface, components, quota, options.seed);
   return {std::move(samples.points), std::move(samples.component)};
@@ -238,7 +242,8 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
   for (std::size_t level = quotas.size(); level-- > 0;) {
     rvd::CellEvaluator evaluator(surface, static_cast<Index>(sites.points.size()), workers);
     const int evaluations = level == 0 ? options.iterations : options.coarse_iterations;
-    if (!monitor.cancelled()) {
+    const bool made_before = level + 1 == quotas.size() && is_started(options, quotas.back());
+    if (!monitor.cancelled() && !made_before) {
       int made = 1;
       const double energy =
           minimize_cvt(evaluator, sites.points, evaluations,

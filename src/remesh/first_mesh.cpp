@@ -1,5 +1,5 @@
-// Why so: the diagram is needed to spread the sites over the surface, which takes a few evaluations
-// at a quarter of the number. To bring their connectivity in order takes many more, and these a
+// Why so: the diagram is needed to spread the sites over the surface, which a quarter of them does
+// as well. To bring their connectivity in order takes many more, and these a
 // mesh of a few thousand vertices does at a tenth of the cost; subdivided, it has nearly regular
 // connectivity, which a start from sites reaches late or never.
 #include "remesh/first_mesh.h"
@@ -18,7 +18,6 @@ namespace nonobtuse::pipeline {
 namespace {
 
 constexpr Index kFewestVertices = 1000;
-constexpr int kEvaluations = 20;  // of the coarse cells
 // Beyond this, tips and fingers are lost at a quarter of the vertices.
 constexpr double kMostAreaRatio = 1.45;
 // On the coarse mesh, where flips should be many, and on the fine one, where they should be few.
@@ -65,8 +64,8 @@ FirstMesh first_mesh(const mesh::Surface& surface, Index vertices, std::uint64_t
   CvtOptions options;
   options.sites = coarse;
   options.seed = seed;
-  options.iterations = kEvaluations;
-  options.tolerance = 0;
+  options.iterations = options.coarse_iterations;
+  options.tolerance = options.coarse_tolerance;
   options.coarse_levels = 0;
   options.recorded = false;
   result.coarse_sites = optimize_cvt(surface, options, workers, monitor);
