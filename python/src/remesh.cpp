@@ -25,14 +25,22 @@ class Watcher {
     stage_ = progress.stage;
     heard_ = now;
     const nb::gil_scoped_acquire acquire;
+    if (!look_for_signals()) return false;
     try {
-      if (PyErr_CheckSignals() != 0) throw nb::python_error();
       if (callback_.is_none()) return true;
       return goes_on(callback_(stage_, progress.fraction, message_of(progress)));
     } catch (nb::python_error& error) {
       error_ = nb::borrow(error.value());
       return false;
     }
+  }
+
+  // With the GIL. False: stop. Once more at the end, or a late Ctrl-C would cost the result.
+  bool look_for_signals() {
+    if (PyErr_CheckSignals() == 0) return true;
+    const nb::python_error error;  // takes what was raised
+    if (!failed()) error_ = nb::borrow(error.value());
+    return false;
   }
 
   [[nodiscard]] bool failed() const { return error_.is_valid(); }
@@ -63,7 +71,8 @@ class Watcher {
 
 // What a call gives; the input in full only if it was repaired.
 struct Outcome {
-  std::vector<Repair> repairs;
+  std::vector<Repair> noted;  // repairs, and what is unusual but kept
+  bool mended = false;
   TriangleMesh repaired;
   MeshAttributes attributes;  // of the result
   AngleQuality before;
@@ -77,8 +86,9 @@ Outcome clean_and_remesh(const TriangleMesh& given, MeshAttributes attributes, b
   const TriangleMesh* input = &given;
   if (clean_first) {
     CleanResult cleaned = clean(given, attributes);
-    outcome.repairs = std::move(cleaned.repairs);
-    if (!outcome.repairs.empty()) {
+    outcome.noted = noted(cleaned);
+    outcome.mended = !cleaned.repairs.empty();
+    if (outcome.mended) {
       outcome.repaired = std::move(cleaned.mesh);
       attributes = std::move(cleaned.attributes);
       input = &outcome.repaired;
@@ -185,10 +195,9 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["size_ratio"] = to_dict(result.size_ratio);
   d["max_error"] = result.max_error;
   d["history"] = history_list(result.history);
-  d["repairs"] = to_list(outcome.repairs);
-  d["repaired"] = outcome.repairs.empty()
-                      ? nb::none()
-                      : nb::object(to_tuple(std::move(outcome.repaired), outcome.repairs));
+  d["repairs"] = to_list(outcome.noted);
+  d["repaired"] = outcome.mended ? nb::object(to_tuple(std::move(outcome.repaired), outcome.noted))
+                                 : nb::none();
   d["attributes"] = to_tuple(std::move(outcome.attributes));
   d["error"] = error;
   return d;
@@ -239,6 +248,7 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
     outcome =
         clean_and_remesh(given, std::move(attributes), clean_first, options, context, watcher);
   }
+  watcher.look_for_signals();
   return to_dict(std::move(outcome), watcher.error());
 }
 

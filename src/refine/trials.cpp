@@ -9,6 +9,7 @@
 namespace nonobtuse::refine {
 namespace {
 
+constexpr int kShortPasses = 2;
 constexpr std::ptrdiff_t kFinalists = 4;
 // Against large distances, in haste.
 constexpr std::ptrdiff_t kFewFinalists = 2;
@@ -33,7 +34,7 @@ namespace {
 
 void relax_patch(Patch& patch, const TrialOptions& options, int passes) {
   const RelaxationOptions relaxation{options.shape, passes, options.on_surface,
-                                     std::isfinite(options.far)};
+                                     std::isfinite(options.far) || patch.fidelity.knots.network() != nullptr};
   const parallel::Workers serial(1);
   std::vector<Index> triangles;
   for (Index t = 0; t < patch.mesh.triangle_capacity(); ++t)
@@ -85,6 +86,8 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
     PatchScore score;
     TrialOptions options;
   };
+  if (options.budget && options.budget->exhausted()) return std::nullopt;
+  const std::int64_t vertices = std::ssize(patch.inner_vertices());
   std::vector<Trial> trials(sequences.size());
   const bool far = std::isfinite(options.far);
   const auto improve = [&](Trial& trial, int passes) {
@@ -96,11 +99,15 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
     trials[i].patch = edited(patch, sequences[i]);
     trials[i].options = options;
     if (!trials[i].patch) return;
-    if (!far) return improve(trials[i], 2);
+    if (!far) return improve(trials[i], kShortPasses);
     trials[i].score.folded = std::numeric_limits<Index>::max();
     balance_patch(*trials[i].patch, trials[i].options, trials[i].score, options.thorough ? 2 : 1);
   });
   std::erase_if(trials, [](const Trial& t) { return !t.patch; });
+  if (options.budget)
+    options.budget->spend(vertices *
+                          (kShortPasses * std::ssize(trials) +
+                           2 * options.passes * std::min(kFinalists, std::ssize(trials))));
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.score < b.score; });
   const std::ptrdiff_t finalists =

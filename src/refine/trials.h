@@ -1,6 +1,7 @@
 // Trying sequences of edits on copies of a patch: edit, relax, compare.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -9,6 +10,20 @@
 #include "refine/patch.h"
 
 namespace nonobtuse::refine {
+
+/// What trials may still cost, in relaxations of single vertices: a mesh that resists is given up
+/// after work in proportion to its size, however many places are left.
+class TrialBudget {
+ public:
+  explicit TrialBudget(std::int64_t work) : left_(work) {}
+  void spend(std::int64_t work) { left_ -= work; }
+  [[nodiscard]] bool exhausted() const { return left_ <= 0; }
+
+  std::vector<Triangle> resisting;  ///< vertices of triangles that nothing helped, sorted
+
+ private:
+  std::int64_t left_;
+};
 
 struct TrialOptions {
   energy::ShapeWeights shape;  ///< to relax and to compare by
@@ -19,13 +34,14 @@ struct TrialOptions {
   /// Largest distances beyond this are compared (before the energy), and relaxation works against
   /// them; infinity: distances count by their energy alone.
   double far = std::numeric_limits<double>::infinity();
-  bool thorough = false;  ///< against large distances: more sequences get a long relaxation
+  bool thorough = false;          ///< against large distances: more sequences get a long relaxation
+  TrialBudget* budget = nullptr;  ///< shared; none: whatever it takes
 };
 
 PatchScore score(const Patch& patch, const TrialOptions& options);
 
-/// The best of several sequences by score, with its score; nothing if none is possible. Parallel
-/// over the sequences.
+/// The best of several sequences by score, with its score; nothing if none is possible or the
+/// budget is exhausted. Parallel over the sequences.
 std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
                              const TrialOptions& options, const parallel::Workers& workers,
                              PatchScore& best_score);
