@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "refine/fold_mending.h"
 #include "refine/largest_distance.h"
 #include "refine/neighborhood.h"
 #include "refine/valence_edits.h"
@@ -37,6 +38,7 @@ class DistanceMender {
         options_(options),
         enough_(enough),
         workers_(workers),
+        folds_(fidelity.surface()),
         far_points_(mesh, fidelity, enough, workers) {}
 
   [[nodiscard]] const std::vector<FarPoint>& far_points() const { return far_points_.list(); }
@@ -129,7 +131,8 @@ class DistanceMender {
     const PatchScore before = score(patch, options_);
     if (after.folded > before.folded || after.bad_valence > before.bad_valence ||
         after.outside_promise > before.outside_promise ||
-        after.outside_goal > before.outside_goal || !(after.distance < part * before.distance))
+        after.outside_goal > before.outside_goal || !(after.distance < part * before.distance) ||
+        folds_.count(*best) > folds_.count(patch))
       return false;
     if (state) state->emplace(State{mesh_, fidelity_, far_points_});
     renew(best->commit(mesh_, fidelity_));
@@ -151,6 +154,7 @@ class DistanceMender {
   double enough_;
   Index effort_ = kEffort;
   const parallel::Workers& workers_;
+  FoldTest folds_;
   FarPoints far_points_;
 };
 

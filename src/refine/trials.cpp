@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "refine/fold_mending.h"
 #include "refine/largest_distance.h"
 #include "refine/relaxation.h"
 
@@ -26,6 +27,7 @@ PatchScore score(const Patch& patch, const TrialOptions& options) {
       patch.score(options.shape, AngleTest(options.promise), AngleTest(options.goal));
   if (std::isfinite(options.far))
     score.distance = largest_distance(patch.mesh, patch.fidelity, options.far);
+  if (options.folds) score.folded = options.folds->count(patch);
   return score;
 }
 

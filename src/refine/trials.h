@@ -10,6 +10,8 @@
 
 namespace nonobtuse::refine {
 
+class FoldTest;
+
 struct TrialOptions {
   energy::ShapeWeights shape;  ///< to relax and to compare by
   AngleGoal promise = kPromise;
@@ -19,6 +21,7 @@ struct TrialOptions {
   /// Largest distances beyond this are compared (before the energy), and relaxation works against
   /// them; infinity: distances count by their energy alone.
   double far = std::numeric_limits<double>::infinity();
+  const FoldTest* folds = nullptr;  ///< if any, counts folds as it does and not by the feet alone
   bool thorough = false;  ///< against large distances: more sequences get a long relaxation
 };
 

@@ -12,6 +12,7 @@
 #include "refine/distance_mending.h"
 #include "refine/fidelity.h"
 #include "refine/flips.h"
+#include "refine/fold_mending.h"
 #include "refine/global_descent.h"
 #include "refine/sheet_separation.h"
 #include "refine/valence_mending.h"
@@ -85,10 +86,13 @@ class Refinement {
     // Beside creases a second attempt finds a mesh in better order.
     for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
       outside = mend_and_sweep(local);
-    refine::mend_distance(mesh_, fidelity_, local, workers_,
-                          [&](double f) { return tick(0.9 + 0.05 * f); });
     refine::separate_sheets(mesh_, fidelity_, local, workers_,
-                            [&](double f) { return tick(0.95 + 0.05 * f); });
+                            [&](double f) { return tick(0.9 + 0.01 * f); });
+    refine::mend_folds(mesh_, fidelity_, local, workers_, [&] { return tick(0.92); });
+    if (refine::mend_distance(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.93 + 0.05 * f); }) > 0)
+      refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.98 + 0.02 * f); });
     return outside == 0 ? 0 : outside_goal(goal);
   }
 
