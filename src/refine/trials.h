@@ -22,7 +22,7 @@ struct TrialOptions {
   /// them; infinity: distances count by their energy alone.
   double far = std::numeric_limits<double>::infinity();
   const FoldTest* folds = nullptr;  ///< if any, counts folds as it does and not by the feet alone
-  bool thorough = false;  ///< against large distances: more sequences get a long relaxation
+  Index* effort = nullptr;          ///< against large distances: counted down by vertices moved
 };
 
 PatchScore score(const Patch& patch, const TrialOptions& options);
