@@ -138,6 +138,7 @@ Json json_of(const RemeshCommand& command, const Outcome& outcome, int code, Ind
             {"after_vertices", outcome.written.vertices.size()},
             {"size_ratio", to_json(outcome.result.size_ratio)},
             {"narrow_corners", to_json(outcome.result.narrow_corners)},
+            {"parts_without_features", outcome.result.parts_without_features},
             {"goal", to_json(outcome.goal, outcome.written, named)},
             {"promise", to_json(outcome.promise, outcome.written, named)},
             {"seconds", outcome.seconds},
@@ -203,6 +204,10 @@ void print_table(const RemeshCommand& command, const Outcome& outcome) {
   if (!outcome.goal.certified && (goal.min_angle != 30 || goal.max_angle != 90))
     fmt::print("{}", certificate_text(path, outcome.written, outcome.promise, 0));
   print_narrow_corners(outcome);
+  if (const Index parts = outcome.result.parts_without_features; parts > 0)
+    fmt::print(
+        "{} meshed without creases and boundary curves: too few vertices to keep them apart\n",
+        parts == 1 ? "1 connected component was" : fmt::format("{} components were", parts));
   if (outcome.result.status == Status::Cancelled) fmt::print("cancelled: the best mesh so far\n");
   if (!command.no_distance && !outcome.distance && outcome.result.status != Status::Cancelled)
     fmt::print(

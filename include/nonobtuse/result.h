@@ -65,8 +65,11 @@ struct RemeshResult {
   /// the lower first, sorted).
   std::vector<std::array<Index, 2>> feature_edges;
   std::vector<NarrowCorner> narrow_corners;  ///< see there; triangles at them may miss the bounds
-  std::vector<StageTime> stages;             ///< in the order they ran; a stage may occur once
-  std::vector<IterationRecord> history;      ///< with RemeshOptions::history, in order; else empty
+  /// Connected components whose creases and boundary curves were given up, since the vertices were
+  /// too few to keep them apart.
+  Index parts_without_features = 0;
+  std::vector<StageTime> stages;         ///< in the order they ran; a stage may occur once
+  std::vector<IterationRecord> history;  ///< with RemeshOptions::history, in order; else empty
 };
 
 /// Whether a mesh is inside the bounds of its certificate, or all triangles outside touch one of

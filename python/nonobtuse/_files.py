@@ -50,6 +50,8 @@ def clean(vertices: ArrayLike, faces: ArrayLike) -> Mesh:
     """Makes a mesh fit for remeshing; what was done is listed in ``.repairs``.
 
     Drops degenerate faces and unused vertices, turns faces that disagree with their neighbours.
+    ``.repairs`` also lists what is unusual but kept: edges of three or more faces, vertices where
+    fans of faces touch.
     Raises InvalidInput, with the element's index, for what cannot be mended.
     """
     return Mesh(*_core.clean(_arrays.points(vertices), _arrays.faces(faces)))

@@ -230,6 +230,7 @@ def _result(outcome: dict[str, Any], given: Mesh, options: dict[str, Any], start
         stages=outcome["stages"],
         size_ratio=outcome["size_ratio"],
         narrow_corners=outcome["narrow_corners"],
+        parts_without_features=outcome["parts_without_features"],
     )
     if outcome["max_error"] > 0:
         result.report["max_error"] = outcome["max_error"]

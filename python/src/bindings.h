@@ -22,6 +22,9 @@ nb::tuple to_tuple(Certificate&& certificate);
 /// Attributes of a mesh and back: see attributes.cpp.
 MeshAttributes attributes_of(const nb::tuple& given);
 nb::tuple to_tuple(MeshAttributes&& attributes);
+/// The repairs, and what is unusual but kept.
+std::vector<Repair> noted(const CleanResult& cleaned);
+
 /// (vertices, faces, repairs)
 nb::tuple to_tuple(TriangleMesh&& mesh, const std::vector<Repair>& repairs);
 

@@ -39,7 +39,7 @@ nb::tuple clean_arrays(const VertexArray& vertices, const FaceArray& faces) {
     const nb::gil_scoped_release release;
     cleaned = clean(mesh);
   }
-  return to_tuple(std::move(cleaned.mesh), cleaned.repairs);
+  return to_tuple(std::move(cleaned.mesh), noted(cleaned));
 }
 
 nb::tuple sample(Index resolution) {
@@ -52,6 +52,12 @@ nb::tuple sample(Index resolution) {
 }
 
 }  // namespace
+
+std::vector<Repair> noted(const CleanResult& cleaned) {
+  std::vector<Repair> all = cleaned.repairs;
+  all.insert(all.end(), cleaned.kept.begin(), cleaned.kept.end());
+  return all;
+}
 
 nb::list to_list(const std::vector<Repair>& repairs) {
   nb::list list;

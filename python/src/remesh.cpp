@@ -63,7 +63,8 @@ class Watcher {
 
 // What a call gives; the input in full only if it was repaired.
 struct Outcome {
-  std::vector<Repair> repairs;
+  std::vector<Repair> noted;  // repairs, and what is unusual but kept
+  bool mended = false;
   TriangleMesh repaired;
   MeshAttributes attributes;  // of the result
   AngleQuality before;
@@ -77,8 +78,9 @@ Outcome clean_and_remesh(const TriangleMesh& given, MeshAttributes attributes, b
   const TriangleMesh* input = &given;
   if (clean_first) {
     CleanResult cleaned = clean(given, attributes);
-    outcome.repairs = std::move(cleaned.repairs);
-    if (!outcome.repairs.empty()) {
+    outcome.noted = noted(cleaned);
+    outcome.mended = !cleaned.repairs.empty();
+    if (outcome.mended) {
       outcome.repaired = std::move(cleaned.mesh);
       attributes = std::move(cleaned.attributes);
       input = &outcome.repaired;
@@ -175,6 +177,7 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
     corners.append(entry);
   }
   d["narrow_corners"] = corners;
+  d["parts_without_features"] = result.parts_without_features;
   d["status"] = name_of(result.status);
   d["certificate"] = to_tuple(std::move(result.certificate));
   d["goal"] = to_tuple(std::move(result.goal));
@@ -184,10 +187,9 @@ nb::dict to_dict(Outcome&& outcome, const nb::object& error) {
   d["size_ratio"] = to_dict(result.size_ratio);
   d["max_error"] = result.max_error;
   d["history"] = history_list(result.history);
-  d["repairs"] = to_list(outcome.repairs);
-  d["repaired"] = outcome.repairs.empty()
-                      ? nb::none()
-                      : nb::object(to_tuple(std::move(outcome.repaired), outcome.repairs));
+  d["repairs"] = to_list(outcome.noted);
+  d["repaired"] = outcome.mended ? nb::object(to_tuple(std::move(outcome.repaired), outcome.noted))
+                                 : nb::none();
   d["attributes"] = to_tuple(std::move(outcome.attributes));
   d["error"] = error;
   return d;

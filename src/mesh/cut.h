@@ -2,7 +2,6 @@
 // boundary: every fan of triangles around a vertex gets its own copy of it.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "mesh/topology.h"
@@ -27,11 +26,15 @@ Cut cut_along(const std::vector<Triangle>& triangles, Index vertex_count,
 Cut cut_to_manifold(const std::vector<Triangle>& triangles, Index vertex_count,
                     const std::vector<EdgeSide>& sides);
 
-/// Corners (3 t + k) around each vertex joined across the edges that are not cut.
+/// Corners of triangles grouped into fans around their vertices: union-find over #F by 3 corners
+/// (3 t + k). At first every corner is a fan of its own.
 class CornerFans {
  public:
-  CornerFans(const std::vector<Triangle>& triangles);
+  /// The triangles must outlive this.
+  explicit CornerFans(const std::vector<Triangle>& triangles);
+  /// Joins the corners of two triangles at both ends of their common edge.
   void join(const EdgeSide& a, const EdgeSide& b);
+  /// One vertex per fan.
   [[nodiscard]] Cut copies(Index vertex_count);
 
  private:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/cut.h"
 #include "mesh/editable_mesh.h"
 #include "mesh/topology.h"
 #include "numeric/expansion.h"
@@ -211,7 +212,8 @@ DegenerateRemoval remove_degenerate_faces(TriangleMesh& mesh) {
     again = remover.drop(mesh, counts);
     const auto count = static_cast<Index>(mesh.vertices.size());
     if (again &&
-        vertex_with_several_fans(mesh.triangles, count, edge_sides(mesh.triangles, count)) >= 0)
+        cut_to_manifold(mesh.triangles, count, edge_sides(mesh.triangles, count)).original.size() >
+            mesh.vertices.size())
       break;  // no longer a manifold: the caller's check says so
   }
   return counts;

@@ -92,36 +92,4 @@ Orientation consistent_orientation(std::size_t triangle_count, const std::vector
   return result;
 }
 
-Index vertex_with_several_fans(const std::vector<Triangle>& triangles, Index vertex_count,
-                               const std::vector<EdgeSide>& sides) {
-  // Corners of a vertex that share an edge are joined (union-find); a vertex of one fan has one
-  // set left: corners minus successful joins.
-  std::vector<Index> parent(3 * triangles.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index c) {
-    while (parent[c] != c) c = parent[c] = parent[parent[c]];
-    return c;
-  };
-  std::vector<Index> sets(vertex_count, 0);
-  for (const Triangle& t : triangles)
-    for (const Index v : t) ++sets[v];
-  const auto corner_at = [&](const EdgeSide& s, Index v) {
-    const int k = triangles[s.triangle][next(s.corner)] == v ? next(s.corner) : previous(s.corner);
-    return 3 * s.triangle + k;
-  };
-  for_each_edge(sides, [&](const EdgeSide* first, const EdgeSide* last) {
-    if (last - first != 2) return;
-    for (const Index v : {first->low, first->high}) {
-      const Index a = root(corner_at(first[0], v));
-      const Index b = root(corner_at(first[1], v));
-      if (a == b) continue;
-      parent[std::max(a, b)] = std::min(a, b);
-      --sets[v];
-    }
-  });
-  for (Index v = 0; v < vertex_count; ++v)
-    if (sets[v] > 1) return v;
-  return -1;
-}
-
 }  // namespace nonobtuse::mesh

@@ -48,9 +48,4 @@ struct Orientation {
 /// own (at a tie, that of its first triangle).
 Orientation consistent_orientation(std::size_t triangle_count, const std::vector<EdgeSide>& sides);
 
-/// A vertex whose triangles form more than one fan, the smallest one; -1 if there is none.
-/// Edges have at most two triangles.
-Index vertex_with_several_fans(const std::vector<Triangle>& triangles, Index vertex_count,
-                               const std::vector<EdgeSide>& sides);
-
 }  // namespace nonobtuse::mesh

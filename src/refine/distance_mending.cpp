@@ -214,8 +214,7 @@ class DistanceMender {
 
   // Adds what is far of the surface near these triangles to the samples, and measures them anew.
   void look_closely(const std::vector<Index>& around, const std::vector<Index>& changed = {}) {
-    fidelity_.emphasize_far_ridges(mesh_, enough_, kNewWeight, 1, workers_,
-                                   FarRidges::VerticesAndEdges, &around);
+    fidelity_.emphasize_far_ridges(mesh_, enough_, kNewWeight, 1, workers_, &around);
     far_points_.update(changed, around);
   }
 
@@ -237,7 +236,7 @@ Index mend_distance(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
   const double enough = kInOrder * std::sqrt(fidelity.mean_square(mesh));
   TrialOptions strict = options;
   strict.promise = strict.goal;
-  fidelity.emphasize_far_ridges(mesh, enough, kNewWeight, 1, workers, FarRidges::VerticesAndEdges);
+  fidelity.emphasize_far_ridges(mesh, enough, kNewWeight, 1, workers);
   DistanceMender mender(mesh, fidelity, strict, enough, workers);
   if (mender.far_points().empty()) return 0;
   Index changes = mender.relax_clusters();

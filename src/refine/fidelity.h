@@ -60,12 +60,6 @@ struct FidelityWeights {
 /// the facets; each stands for the same share of it. Deterministic.
 std::vector<Sample> sample_surface(const mesh::Surface& surface, Index count);
 
-/// Which points of M's vertices and edges can become samples.
-enum class FarRidges {
-  Vertices,          ///< vertices of facets that have samples: few, for the whole mesh at once
-  VerticesAndEdges,  ///< those of their neighbours and points of sharp edges too, near a far place
-};
-
 class Fidelity {
  public:
   /// Both must outlive this object.
@@ -111,7 +105,7 @@ class Fidelity {
   /// `growth` where they are still far. With `triangles`, only where the samples of these lie.
   /// Returns how many are far.
   Index emphasize_far_ridges(const mesh::EditableMesh& mesh, double far, double weight,
-                             double growth, const parallel::Workers& workers, FarRidges which,
+                             double growth, const parallel::Workers& workers,
                              const std::vector<Index>* triangles = nullptr);
   /// Gives the samples of these triangles to the nearest of them (after a local edit).
   void redistribute(const mesh::EditableMesh& mesh, std::span<const Index> triangles);

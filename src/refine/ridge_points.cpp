@@ -37,10 +37,9 @@ class RidgePoints {
 
   // Calls visit(number, point) for the points of a facet.
   template <class Visit>
-  void of_facet(Index f, FarRidges which, const Visit& visit) const {
+  void of_facet(Index f, const Visit& visit) const {
     const Triangle& v = surface_.triangles[f];
     for (int k = 0; k < 3; ++k) visit(v[k], surface_.vertices[v[k]]);
-    if (which == FarRidges::Vertices) return;
     for (int k = 0; k < 3; ++k) {
       const Index g = surface_.adjacent[f][k];
       if (g < 0 || dot(surface_.normals[f], surface_.normals[g]) > kSharp) continue;
@@ -77,7 +76,7 @@ class RidgePoints {
 
 Index Fidelity::emphasize_far_ridges(const mesh::EditableMesh& mesh, double far, double weight,
                                      double growth, const parallel::Workers& workers,
-                                     FarRidges which, const std::vector<Index>* triangles) {
+                                     const std::vector<Index>* triangles) {
   std::vector<Index> all;
   const bool few = triangles != nullptr;
   if (!few) {
@@ -106,7 +105,7 @@ Index Fidelity::emphasize_far_ridges(const mesh::EditableMesh& mesh, double far,
       if (sample.ridge >= 0 || sample.facet == before) continue;
       before = sample.facet;
       const auto add = [&](Index facet) {
-        ridges.of_facet(facet, which, [&](Index number, const Vec3& point) {
+        ridges.of_facet(facet, [&](Index number, const Vec3& point) {
           if (!ridges.mark(number)) return;
           const double local = surface().size_at(facet, {1.0 / 3, 1.0 / 3, 1.0 / 3});
           const double area = local * local;
@@ -118,7 +117,6 @@ Index Fidelity::emphasize_far_ridges(const mesh::EditableMesh& mesh, double far,
       };
       // Facets smaller than a sample's share may have none: their neighbours' count.
       add(sample.facet);
-      if (which == FarRidges::Vertices) continue;
       for (const Index g : surface().adjacent[sample.facet]) {
         if (g < 0) continue;
         add(g);

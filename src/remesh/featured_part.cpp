@@ -4,15 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <numeric>
 #include <utility>
 
-#include "features/crease_detection.h"
-#include "features/facet_splitting.h"
+#include "features/feature_edges.h"
 #include "features/knot_insertion.h"
-#include "features/narrow_places.h"
 #include "mesh/topology.h"
 #include "nonobtuse/error.h"
 #include "rdt/delaunay_flips.h"
@@ -21,92 +16,16 @@
 #include "remesh/patch_meshing.h"
 #include "remesh/refinement.h"
 #include "remesh/request.h"
-#include "remesh/size_field.h"
 #include "remesh/valence_optimization.h"
-#include "sizing/density.h"
-#include "sizing/gradation.h"
+#include "spatial/triangle_bvh.h"
 
 namespace nonobtuse::pipeline {
 
 namespace {
 
-// Edge length of a uniform mesh in working coordinates, where area / #V = 1.
-const double kEdgeLength = std::sqrt(2 / std::sqrt(3.0));
-constexpr double kShortestCrease = 1.5;  // of an edge length; shorter ones that end freely go
-constexpr double kFlatWidth = 1.8;       // of an edge length: of the sides of a prism to be kept
-constexpr double kSnap = 0.02;           // of an edge length
-constexpr double kFeatureEdge = 0.45;    // of an edge length: longest piece of a feature edge while
-                                         // widths are measured
-constexpr double kLeastSize = 0.05;      // of an edge length
-constexpr int kSizeSteps = 8;
+constexpr double kSnap = 0.02;      // of an edge length
 constexpr double kLeastAngle = 30;  // of the promise, degrees
 constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
-
-// The input cut open, without knots: what the patches are.
-features::CutSurface patches_of(const mesh::Surface& surface, const features::EdgeFlags& flags) {
-  features::KnottedSurface plain;
-  plain.vertices = surface.vertices;
-  plain.size = surface.size;
-  plain.triangles = surface.triangles;
-  plain.flags = flags;
-  plain.facet.resize(flags.size());
-  std::iota(plain.facet.begin(), plain.facet.end(), 0);
-  plain.knot.assign(surface.vertices.size(), -1);
-  return features::cut_open(plain);
-}
-
-std::vector<features::PatchDemand> patch_demands(const mesh::Surface& cut,
-                                                 const Components& patches) {
-  std::vector<features::PatchDemand> demands(patches.count());
-  std::vector<std::vector<Index>> facets(patches.count());
-  for (Index f = 0; f < static_cast<Index>(cut.triangles.size()); ++f)
-    facets[patches.of_triangle[f]].push_back(f);
-  for (Index p = 0; p < patches.count(); ++p) {
-    demands[p].area = cut.size.empty()
-                          ? patches.area[p]
-                          : 0.5 * std::sqrt(3.0) * sizing::vertices_for(cut, cut.size, facets[p]);
-    demands[p].euler = patches.euler[p];
-  }
-  return demands;
-}
-
-std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan,
-                                                 const Components& patches) {
-  const mesh::Surface& surface = plan.surface;
-  const std::vector<mesh::EdgeSide> sides =
-      mesh::edge_sides(surface.triangles, static_cast<Index>(surface.vertices.size()));
-  std::map<std::pair<Index, Index>, int> between;  // curves with the same ends
-  std::vector<Index> degree(surface.vertices.size(), 0);
-  for (const features::FeatureCurve& c : plan.graph.curves)
-    if (!c.closed) ++degree[c.vertices.front()], ++degree[c.vertices.back()];
-  std::vector<features::CurveDemand> demands;
-  for (std::size_t c = 0; c < plan.graph.curves.size(); ++c) {
-    const features::FeatureCurve& curve = plan.graph.curves[c];
-    features::CurveDemand d;
-    d.length = features::curve_lengths(surface, curve).metric.back();
-    d.closed = curve.closed;
-    const auto ends = std::minmax({curve.vertices.front(), curve.vertices.back()});
-    if (curve.closed || ends.first == ends.second) {
-      d.least = 3;
-    } else {
-      const bool free = degree[ends.first] == 1 && degree[ends.second] == 1;
-      d.least = between[ends]++ > 0 || free ? 2 : 1;
-    }
-    if (plan.frozen[c] != 0)
-      d.fixed = static_cast<Index>(std::count_if(curve.vertices.begin(), curve.vertices.end(),
-                                                 [&](Index v) { return v < plan.originals; })) -
-                (curve.closed ? 0 : 1);
-    const auto edge = std::minmax({curve.vertices[0], curve.vertices[1]});
-    auto side = std::lower_bound(sides.begin(), sides.end(), edge,
-                                 [](const mesh::EdgeSide& s, const std::pair<Index, Index>& e) {
-                                   return std::pair(s.low, s.high) < e;
-                                 });
-    for (; side != sides.end() && std::pair(side->low, side->high) == edge; ++side)
-      d.patches.push_back(patches.of_triangle[side->triangle]);
-    demands.push_back(std::move(d));
-  }
-  return demands;
-}
 
 // Every second knot along every curve, and all that are fixed.
 std::vector<char> coarse_knots(const mesh::CurveNetwork& network) {
@@ -351,147 +270,7 @@ class FeaturedPart {
   std::vector<Index> foot_;
 };
 
-class Planner {
- public:
-  Planner(const Part& part, Index vertices, const RemeshOptions& options)
-      : vertices_(vertices), options_(options), points_(part.points) {
-    plan_.input = normalize(part.mesh, vertices);
-    plan_.originals = static_cast<Index>(plan_.input.surface.vertices.size());
-    set_sizes(part.length, plan_.input);
-    plan_.surface = plan_.input.surface;
-    plan_.flags = part.features;
-  }
-
-  FeaturePlan run() {
-    if (options_.features == Features::Auto)
-      features::flag_coarse_creases(plan_.surface, kFlatWidth * kEdgeLength, plan_.flags);
-    features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
-    plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
-    if (plan_.graph.curves.empty() && points_.empty()) return std::move(plan_);
-    plan_.graph = graph(plan_.surface, plan_.flags,
-                        features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
-    plan_.manifold =
-        points_.empty() && std::all_of(plan_.graph.curves.begin(), plan_.graph.curves.end(),
-                                       [](const auto& curve) { return curve.facets <= 2; });
-    find_frozen();
-    find_sizes();
-    balance();
-    return std::move(plan_);
-  }
-
- private:
-  // With the points in which patches touch among its corners.
-  [[nodiscard]] features::FeatureGraph graph(const mesh::Surface& surface,
-                                             const features::EdgeFlags& flags,
-                                             std::vector<char> corner) const {
-    corner.resize(surface.vertices.size(), 0);
-    for (const Index v : points_) corner[v] = 1;
-    features::FeatureGraph result = features::feature_graph(surface, flags, std::move(corner));
-    for (const Index v : points_) result.corner[v] = 1;
-    return result;
-  }
-
-  void find_frozen() {
-    plan_.frozen.clear();
-    for (const features::FeatureCurve& c : plan_.graph.curves)
-      plan_.frozen.push_back(c.boundary && options_.boundary == Boundary::Freeze ? 1 : 0);
-  }
-
-  void balance() {
-    const features::CutSurface cut = patches_of(plan_.surface, plan_.flags);
-    const Components patches = connected_components(cut.surface);
-    plan_.balance = features::balance_vertices(curve_demands(plan_, patches),
-                                               patch_demands(cut.surface, patches),
-                                               plan_.graph.corner_count(), vertices_);
-  }
-
-  // Edges shorter than asked for where features need it, and along frozen boundaries as long as
-  // they are there.
-  void find_sizes() {
-    const double largest =
-        plan_.surface.size.empty()
-            ? 1
-            : *std::max_element(plan_.surface.size.begin(), plan_.surface.size.end());
-    features::ResolvedSurface fine = features::resolve_surface(
-        plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
-    features::FeatureGraph graph = this->graph(fine.surface, fine.flags, plan_.graph.corner);
-    const std::vector<double> bounds =
-        features::narrow_places(fine.surface, fine.flags, graph, largest * kEdgeLength);
-    const std::vector<double> asked = fine.surface.size;
-    const auto local = [&](std::size_t v) { return asked.empty() ? 1.0 : asked[v]; };
-    const std::vector<double> given = frozen_lengths(fine.surface);
-    bool narrow = !given.empty();
-    for (std::size_t v = 0; v < bounds.size(); ++v)
-      narrow = narrow || bounds[v] < kEdgeLength * local(v);
-    if (!narrow) return;
-    plan_.surface = std::move(fine.surface);
-    plan_.flags = std::move(fine.flags);
-    plan_.graph = std::move(graph);
-    find_frozen();
-    // The bounds are lengths and stay; the rest grows until the whole asks for the right number.
-    double h = kEdgeLength;
-    for (int step = 0; step < kSizeSteps; ++step) {
-      std::vector<double>& size = plan_.surface.size;
-      size.resize(bounds.size());
-      for (std::size_t v = 0; v < size.size(); ++v)
-        size[v] = std::min(h * local(v), std::max(bounds[v], kLeastSize * kEdgeLength));
-      for (std::size_t v = 0; v < given.size(); ++v)
-        if (given[v] > 0) size[v] = given[v];
-      sizing::limit_gradation(plan_.surface, options_.gradation, size);
-      raise_to(given, size);
-      balance();
-      h *= plan_.balance.edge_length;
-      if (std::abs(plan_.balance.edge_length - 1) < 1e-3) break;
-    }
-    // In the units that the other stages expect.
-    std::vector<double> length = std::move(plan_.surface.size);
-    NormalizedInput sized{std::move(plan_.surface), {}};
-    set_sizes(length, sized);
-    plan_.surface = std::move(sized.surface);
-    balance();
-  }
-
-  // #V: the mean length of the frozen edges at a vertex, 0 elsewhere; empty if there are none.
-  [[nodiscard]] std::vector<double> frozen_lengths(const mesh::Surface& fine) const {
-    std::vector<double> lengths;
-    for (std::size_t c = 0; c < plan_.graph.curves.size(); ++c) {
-      if (plan_.frozen[c] == 0) continue;
-      lengths.resize(fine.vertices.size(), 0);
-      const std::vector<Index>& v = plan_.graph.curves[c].vertices;
-      for (std::size_t i = 0; i < v.size(); ++i) {
-        const bool closed = plan_.graph.curves[c].closed;
-        const std::size_t before = i > 0 ? i - 1 : closed ? v.size() - 1 : i + 1;
-        const std::size_t after = i + 1 < v.size() ? i + 1 : closed ? 0 : i - 1;
-        const double mean = 0.5 * (distance(fine.vertices[v[before]], fine.vertices[v[i]]) +
-                                   distance(fine.vertices[v[after]], fine.vertices[v[i]]));
-        lengths[v[i]] = mean / features::kCurveSpacing;
-      }
-    }
-    return lengths;
-  }
-
-  // Sizes not below what the given ones, falling by the gradation with distance, leave.
-  void raise_to(const std::vector<double>& given, std::vector<double>& size) const {
-    if (given.empty()) return;
-    const double largest = *std::max_element(given.begin(), given.end());
-    std::vector<double> fall(size.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t v = 0; v < given.size(); ++v)
-      if (given[v] > 0) fall[v] = largest - given[v];
-    sizing::limit_gradation(plan_.surface, options_.gradation, fall);
-    for (std::size_t v = 0; v < size.size(); ++v) size[v] = std::max(size[v], largest - fall[v]);
-  }
-
-  Index vertices_;
-  const RemeshOptions& options_;
-  const std::vector<Index>& points_;
-  FeaturePlan plan_;
-};
-
 }  // namespace
-
-FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options) {
-  return Planner(part, vertices, options).run();
-}
 
 GluedMesh remesh_features(const FeaturePlan& plan, Index vertices, const RemeshOptions& options,
                           const parallel::Workers& workers, StageClock& clock) {

@@ -3,33 +3,17 @@
 // at the knots.
 #pragma once
 
-#include "features/feature_graph.h"
-#include "features/vertex_balance.h"
-#include "mesh/editable_mesh.h"
+#include <array>
+#include <vector>
+
+#include "nonobtuse/mesh.h"
 #include "nonobtuse/options.h"
 #include "nonobtuse/result.h"
 #include "parallel/workers.h"
-#include "remesh/normalization.h"
-#include "remesh/parts.h"
+#include "remesh/feature_plan.h"
 #include "remesh/stage_clock.h"
 
 namespace nonobtuse::pipeline {
-
-/// What is settled before anything is sampled.
-struct FeaturePlan {
-  NormalizedInput input;
-  Index originals = 0;           ///< vertices of `surface` that are the input's, the first ones
-  mesh::Surface surface;         ///< the input, with its sizes; where features are near each other
-                                 ///< with short edges, so that sizes can follow them
-  features::EdgeFlags flags;     ///< of the surface's facets, without stubs too short to mesh
-  features::FeatureGraph graph;  ///< on the surface
-  features::VertexBalance balance;
-  std::vector<char> frozen;  ///< #curves: every vertex of it stays where it is
-  bool manifold = true;      ///< no edge has three facets, no fans touch: it can do without curves
-};
-
-/// Curves, corners and the share of each curve and patch of `vertices`. Throws TooFewVertices.
-FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options);
 
 /// A finished part, in working coordinates, with its vertices that are exactly those of the input.
 struct GluedMesh {

@@ -71,8 +71,7 @@ class Refinement {
       if (monitor_.cancelled()) return outside_goal({lo, hi});
       const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
       fidelity_.emphasize_far_points(mesh_, 2 * far, kFarGrowth);
-      fidelity_.emphasize_far_ridges(mesh_, far, kFarWeight, kFarGrowth, workers_,
-                                     refine::FarRidges::VerticesAndEdges);
+      fidelity_.emphasize_far_ridges(mesh_, far, kFarWeight, kFarGrowth, workers_);
       adapt_weights();
       descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -83,44 +84,75 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, spatial::TriangleBv
   return mesh;
 }
 
-// The same for a part with creases or boundaries; false if it has none, or more than n vertices can
-// keep apart.
-bool remesh_featured(const pipeline::Part& part, Index n, const RemeshOptions& options,
-                     const parallel::Workers& workers, pipeline::StageClock& clock,
-                     RemeshResult& result) {
-  if (part.features.empty()) return false;
-  const pipeline::FeaturePlan plan = pipeline::plan_features(part, n, options);
-  if (plan.graph.curves.empty() && part.points.empty()) return false;
+// How the vertices of a part go on its creases and boundaries; nothing if it has none.
+std::optional<pipeline::FeaturePlan> plan_part(const pipeline::Part& part, Index n,
+                                               const RemeshOptions& options) {
+  if (part.features.empty()) return {};
+  pipeline::FeaturePlan plan = pipeline::plan_features(part, n, options);
+  if (plan.graph.curves.empty() && part.points.empty()) return {};
+  return plan;
+}
+
+// Meshes a part with creases or boundaries; false if n vertices are too few to keep them apart and
+// the options leave it to us whether they are kept.
+bool remesh_featured(const pipeline::Part& part, const pipeline::FeaturePlan& plan, Index n,
+                     const RemeshOptions& options, const parallel::Workers& workers,
+                     pipeline::StageClock& clock, RemeshResult& result) {
   const pipeline::GluedMesh mesh = pipeline::remesh_features(plan, n, options, workers, clock);
-  if (mesh.mesh.triangles.empty()) return false;
-  pipeline::append_part(part, plan.input, mesh, workers, result);
-  return true;
+  if (!mesh.mesh.triangles.empty()) {
+    pipeline::append_part(part, plan.input, mesh, workers, result);
+    return true;
+  }
+  if (options.boundary == Boundary::Freeze || !options.feature_edges.empty())
+    throw TooFewVertices(
+        fmt::format("{} vertices are too few to keep the features of the surface apart.", n),
+        n + n / 4 + 1);
+  ++result.parts_without_features;
+  return false;
 }
 
 // All parts with the vertices they were given; a part that needs more says so in `least`, and the
-// result is then incomplete.
+// result is then incomplete. All are planned before any is meshed, since that is much cheaper.
 bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& vertices,
                   const RemeshOptions& options, const parallel::Workers& workers,
                   pipeline::StageClock& clock, RemeshResult& result) {
-  const Index n = std::accumulate(vertices.begin(), vertices.end(), Index{0});
   bool complete = true;
-  double done = 0;
+  const auto ask = [&](std::size_t c, const auto& step) {
+    try {
+      step();
+    } catch (const TooFewVertices& too_few) {
+      parts[c].least = std::max(too_few.least(), vertices[c] + 1);
+      complete = false;
+    }
+  };
+  std::vector<std::optional<pipeline::FeaturePlan>> plans(parts.size());
+  clock.begin_part(0, 0.01);
+  const auto featured = [](const pipeline::Part& p) { return !p.features.empty(); };
+  if (std::any_of(parts.begin(), parts.end(), featured))
+    clock.run("features", 0, 1, [&] {
+      for (std::size_t c = 0; c < parts.size(); ++c)
+        ask(c, [&] { plans[c] = plan_part(parts[c], vertices[c], options); });
+    });
+  if (!complete) return false;
+
+  const Index n = std::accumulate(vertices.begin(), vertices.end(), Index{0});
+  double done = 0.01;
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    const double share = 0.97 * vertices[c] / n;
+    const double share = 0.96 * vertices[c] / n;
     clock.begin_part(done, done + share);
     done += share;
-    try {
-      if (remesh_featured(parts[c], vertices[c], options, workers, clock, result)) continue;
+    ask(c, [&] {
+      if (plans[c] &&
+          remesh_featured(parts[c], *plans[c], vertices[c], options, workers, clock, result))
+        return;
+      plans[c].reset();
       pipeline::NormalizedInput input = pipeline::normalize(parts[c].mesh, vertices[c]);
       pipeline::set_sizes(parts[c].length, input);
       spatial::TriangleBvh bvh;
       const mesh::EditableMesh mesh =
           remesh_part(input.surface, bvh, vertices[c], options, workers, clock);
       if (complete) pipeline::append_part(parts[c], input, bvh, mesh, workers, result);
-    } catch (const TooFewVertices& too_few) {
-      parts[c].least = std::max(too_few.least(), vertices[c] + 1);
-      complete = false;
-    }
+    });
   }
   return complete;
 }
@@ -131,8 +163,10 @@ void find_least_vertices(std::vector<pipeline::Part>& parts, const RemeshOptions
   for (pipeline::Part& part : parts) {
     for (bool enough = false; !enough;) {
       try {
+        const auto plan = plan_part(part, part.least, options);
         RemeshResult unused;
-        if (remesh_featured(part, part.least, options, workers, clock, unused)) break;
+        if (plan && remesh_featured(part, *plan, part.least, options, workers, clock, unused))
+          break;
         pipeline::NormalizedInput input = pipeline::normalize(part.mesh, part.least);
         pipeline::set_sizes(part.length, input);
         sites_and_mesh(input.surface, part.least, options, workers, clock);

@@ -1,4 +1,8 @@
 // The command line: help, versions, and every way to get it wrong (exit 2, before any work).
+#include <regex>
+#include <set>
+#include <sstream>
+
 #include "cli/run_tool.h"
 #include "nonobtuse/version.h"
 
@@ -27,6 +31,30 @@ TEST(Help, OfACommandTellsItsOptions) {
           "--threads", "--quiet", "--progress", "--json", "--report"})
       EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
   }
+}
+
+std::set<std::string> options_in(const std::string& text, const char* pattern) {
+  const std::regex regex(pattern);
+  std::set<std::string> options;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+    options.insert((*it)[1]);
+  return options;
+}
+
+// What the help tells can be read in the README, and the other way round.
+TEST(Help, TellsTheOptionsThatTheReadmeTells) {
+  const std::string readme = cli::read_file(NONOBTUSE_SOURCE_DIR "/README.md");
+  const std::size_t start = readme.find("| option of `remesh` |");
+  ASSERT_NE(start, std::string::npos);
+  std::istringstream table(readme.substr(start, readme.find("\n\n", start) - start));
+  std::set<std::string> in_readme;
+  for (std::string row; std::getline(table, row);)
+    in_readme.merge(options_in(row.substr(0, row.find(" | ")), "(--[a-z][a-z-]*)"));
+  std::set<std::string> in_help =
+      options_in(run_tool({"remesh", "--help"}).out, "\n  (?:-[a-z],)?(--[a-z-]+)");
+  in_help.erase("--help");
+  in_help.erase("--output");  // `-o FILE` there
+  EXPECT_EQ(in_readme, in_help);
 }
 
 TEST(Version, IsThatOfTheHeader) {

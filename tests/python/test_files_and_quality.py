@@ -92,6 +92,14 @@ def test_clean_reports_what_it_did():
     assert len(cleaned.vertices) == 12
 
 
+def test_clean_lists_edges_of_three_faces_as_kept():
+    vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -1, 0]]
+    faces = [[0, 1, 2], [0, 1, 3], [0, 1, 4]]
+    cleaned = nonobtuse.clean(vertices, faces)
+    assert sorted(map(sorted, cleaned[1].tolist())) == faces
+    assert any("three" in repair["what"] for repair in cleaned.repairs), cleaned.repairs
+
+
 def test_sample_is_closed_and_of_genus_3(mesh):
     assert nonobtuse.measure(*mesh)["topology"]["euler_characteristic"] == -4
     with pytest.raises(nonobtuse.InvalidInput):

@@ -75,8 +75,7 @@ TEST(RidgePoints, SharpEdgesAndVerticesOfTheSurfaceBecomeSamples) {
   Scene s(cube(), test::sphere(8));
   const std::size_t before = s.fidelity.samples.size();
   const double half = s.made.surface.vertices[6].x;
-  const Index far = s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers,
-                                                    refine::FarRidges::VerticesAndEdges);
+  const Index far = s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers);
   EXPECT_EQ(static_cast<std::size_t>(far), s.fidelity.samples.size() - before);
   std::size_t corners = 0, on_edges = 0;
   for (std::size_t i = before; i < s.fidelity.samples.size(); ++i) {
@@ -92,9 +91,7 @@ TEST(RidgePoints, SharpEdgesAndVerticesOfTheSurfaceBecomeSamples) {
   EXPECT_GE(on_edges, 12u);
   // A second time none is added, and their weights grow.
   const double weight = s.fidelity.samples[before].weight;
-  EXPECT_EQ(s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers,
-                                            refine::FarRidges::VerticesAndEdges),
-            far);
+  EXPECT_EQ(s.fidelity.emphasize_far_ridges(s.made.mesh, 0.05, 0.2, 2, s.workers), far);
   EXPECT_EQ(s.fidelity.samples.size(), before + static_cast<std::size_t>(far));
   EXPECT_DOUBLE_EQ(s.fidelity.samples[before].weight, 2 * weight);
 }
