@@ -56,7 +56,8 @@ void MinimaxRelaxation::renew_weights() {
 void MinimaxRelaxation::run(int rounds) {
   const AngleTest promise(options_.promise), goal(options_.goal);
   double& hinge = options_.shape.hinge;
-  for (int round = 0; round < rounds; ++round, ++rounds_) {
+  for (int round = 0; round < rounds; ++round) {
+    ++rounds_;
     renew_weights();
     relax_patch(patch_, options_);
     const double far = std::max(options_.far, kNear * least_distance_);
@@ -66,7 +67,7 @@ void MinimaxRelaxation::run(int rounds) {
     for (const FarWeight& p : points_) now.distance = std::max(now.distance, p.distance);
     least_distance_ = std::min(least_distance_, now.distance);
     if (now < best_score) best = patch_, best_score = now;
-    if (now.outside_goal == 0 && points_.empty()) break;
+    if (now.outside_goal == 0 && now.distance <= options_.far) break;
     hinge = now.outside_goal > 0 ? kHingeGrowth * hinge : std::max(1.0, hinge / kHingeDecay);
   }
 }
