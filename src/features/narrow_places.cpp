@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -22,20 +24,22 @@ constexpr double kWedge = 4;      // paths along curves shorter than this many d
 constexpr double kInwards = 0.3;  // cosine: how squarely the other curve is faced
 constexpr double kClosedSegments = 6;
 constexpr double kTurnSegments = 8;
+constexpr double kMostOfCurve = 0.5;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// One side of a feature edge, from inside its patch.
-struct Side {
-  Index a = 0, b = 0;  // vertices of the cut surface
-  Index patch = 0;
-  Vec3 inward;
-};
-
 class WidthFinder {
  public:
-  WidthFinder(const mesh::Surface& surface, const EdgeFlags& flags, double h)
-      : surface_(surface), reach_(h / kOfWidth) {
+  // One side of a feature edge, from inside its patch.
+  struct Side {
+    Index a = 0, b = 0;  // vertices of the cut surface
+    Index patch = 0;
+    Vec3 inward;
+  };
+
+  // Finds widths up to `reach`.
+  WidthFinder(const mesh::Surface& surface, const EdgeFlags& flags, double reach)
+      : surface_(surface), reach_(reach) {
     const auto vertices = static_cast<Index>(surface.vertices.size());
     const std::vector<mesh::EdgeSide> sides = mesh::edge_sides(surface.triangles, vertices);
     cut_ = mesh::cut_along(surface.triangles, vertices, sides,
@@ -48,6 +52,15 @@ class WidthFinder {
   }
 
   void bound(std::vector<double>& bounds) {
+    for_each_place([&](Index v, const Side&, double width) {
+      bounds[v] = std::min(bounds[v], kOfWidth * width);
+    });
+  }
+
+  // Calls visit(vertex, side across, width) for every vertex of a side of a curve that faces a
+  // side at less than `reach`: the nearest one.
+  template <class Visit>
+  void for_each_place(const Visit& visit) {
     if (sides_.empty()) return;
     std::vector<Vec3> middles;
     double longest = 0;
@@ -61,10 +74,17 @@ class WidthFinder {
       if (patch_of_[p] < 0) continue;
       index.within(at(p), reach_ + 0.5 * longest, near);
       double width = reach_;
-      for (const auto& n : near) width = std::min(width, width_to(p, sides_[n.site], width));
-      if (width < reach_)
-        bounds[cut_.original[p]] = std::min(bounds[cut_.original[p]], kOfWidth * width);
+      const Side* across = nullptr;
+      for (const auto& n : near)
+        if (const double w = width_to(p, sides_[n.site], width); w < width)
+          width = w, across = &sides_[n.site];
+      if (across) visit(cut_.original[p], *across, width);
     }
+  }
+
+  // Ends of the side, as vertices of the surface.
+  [[nodiscard]] std::pair<Index, Index> ends(const Side& side) const {
+    return std::minmax({cut_.original[side.a], cut_.original[side.b]});
   }
 
  private:
@@ -184,6 +204,37 @@ double least_segments(const mesh::Surface& surface, const FeatureCurve& curve, d
   return std::max(1.0, std::ceil(kTurnSegments * (1 - chord / length) - 0.1));
 }
 
+template <class Visit>
+void for_each_link(const FeatureCurve& curve, const Visit& visit) {
+  const std::vector<Index>& v = curve.vertices;
+  for (std::size_t i = 1; i < v.size(); ++i) visit(v[i - 1], v[i]);
+  if (curve.closed) visit(v.back(), v.front());
+}
+
+using CurveOfEdge = std::map<std::pair<Index, Index>, Index>;
+
+std::pair<Index, Index> edge_ends(const mesh::Surface& surface, Index facet, int k) {
+  const Triangle& t = surface.triangles[facet];
+  return std::minmax({t[mesh::next(k)], t[mesh::previous(k)]});
+}
+
+// How much the surface turns at each curve: integral of 1 - cosine over its length.
+std::vector<double> total_turns(const mesh::Surface& surface, const EdgeFlags& flags,
+                                const CurveOfEdge& curve_of, std::size_t curves) {
+  std::vector<double> turn(curves, 0);
+  for (Index f = 0; f < static_cast<Index>(flags.size()); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Index g = surface.adjacent[f][k];
+      if (!flagged(flags, f, k) || g < f) continue;
+      const std::pair<Index, Index> ends = edge_ends(surface, f, k);
+      const auto at = curve_of.find(ends);
+      if (at == curve_of.end()) continue;
+      const double l = distance(surface.vertices[ends.first], surface.vertices[ends.second]);
+      turn[at->second] += l * (1 - dot(surface.normals[f], surface.normals[g]));
+    }
+  return turn;
+}
+
 }  // namespace
 
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
@@ -195,8 +246,53 @@ std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags&
     if (!(bound < h)) continue;
     for (const Index v : curve.vertices) bounds[v] = std::min(bounds[v], bound);
   }
-  WidthFinder(surface, flags, h).bound(bounds);
+  WidthFinder(surface, flags, h / kOfWidth).bound(bounds);
   return bounds;
+}
+
+bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph, double width,
+                        EdgeFlags& flags) {
+  CurveOfEdge curve_of;
+  for (std::size_t c = 0; c < graph.curves.size(); ++c)
+    for_each_link(graph.curves[c], [&](Index a, Index b) {
+      curve_of[std::minmax({a, b})] = static_cast<Index>(c);
+    });
+  const std::vector<double> turn = total_turns(surface, flags, curve_of, graph.curves.size());
+  std::vector<std::vector<Index>> across(surface.vertices.size());  // curves near a vertex
+  WidthFinder finder(surface, flags, width);
+  finder.for_each_place([&](Index v, const WidthFinder::Side& side, double) {
+    across[v].push_back(curve_of.at(finder.ends(side)));
+  });
+  std::vector<Index> order(graph.curves.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return turn[a] < turn[b]; });
+  std::vector<Index> rank(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<Index>(i);
+  CurveOfEdge given_up;
+  for (Index c = 0; c < static_cast<Index>(graph.curves.size()); ++c) {
+    const FeatureCurve& curve = graph.curves[c];
+    if (curve.boundary || curve.facets != 2) continue;
+    const auto yields = [&](Index v) {
+      return std::any_of(across[v].begin(), across[v].end(),
+                         [&](Index other) { return rank[other] > rank[c]; });
+    };
+    double close = 0, whole = 0;
+    for_each_link(curve, [&](Index a, Index b) {
+      const double l = distance(surface.vertices[a], surface.vertices[b]);
+      whole += l;
+      if (!yields(a) || !yields(b)) return;
+      close += l;
+      given_up[std::minmax({a, b})] = c;
+    });
+    if (close > kMostOfCurve * whole)
+      for_each_link(curve, [&](Index a, Index b) { given_up[std::minmax({a, b})] = c; });
+  }
+  for (Index f = 0; f < static_cast<Index>(flags.size()); ++f)
+    for (int k = 0; k < 3; ++k) {
+      if (given_up.count(edge_ends(surface, f, k)) != 0)
+        flags[f] = static_cast<std::uint8_t>(flags[f] & ~(1 << k));
+    }
+  return !given_up.empty();
 }
 
 }  // namespace nonobtuse::features

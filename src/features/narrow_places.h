@@ -19,4 +19,11 @@ namespace nonobtuse::features {
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
                                   const FeatureGraph& graph, double h);
 
+/// Makes one of features nearer to each other than `width` (working units): takes the flags off
+/// parts of curves that face others across a narrower strip, and off the whole curve if they are
+/// most of it; of two curves that with the lower integral of 1 - cos(turn of the normal) yields.
+/// Not off boundaries and curves where patches meet. Returns whether any went.
+bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph, double width,
+                        EdgeFlags& flags);
+
 }  // namespace nonobtuse::features

@@ -66,8 +66,9 @@ void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
 
 Index sweep_angles(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& goal,
                    bool on_surface, const parallel::Workers& workers,
-                   const std::function<bool(double)>& keep_going) {
+                   const std::function<bool(double)>& keep_going, TrialBudget* budget) {
   RelaxationOptions options;
+  options.gauss_newton = !fidelity.knots.empty();
   options.on_surface = on_surface;
   options.shape = energy::hinged(kHinge, goal.smallest + 3, goal.largest - 3);
   sweep(mesh, fidelity, {goal.smallest + 2, goal.largest - 2}, options, 1, workers,
@@ -75,6 +76,7 @@ Index sweep_angles(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal
   const AngleTest test(goal);
   TrialOptions trial;
   trial.goal = goal;
+  trial.budget = budget;
   trial.shape = options.shape = energy::hinged(kHinge, goal.smallest + 1, goal.largest - 1);
   trial.on_surface = on_surface;
   // What is still outside the goal itself may cost some fidelity, then other connectivity.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -24,7 +25,7 @@ constexpr int kAttempts = 24;      // places
 constexpr int kClusterRounds = 12;
 constexpr int kClusterRings = 3;
 // Vertices moved, once in every pass, for all places together.
-constexpr Index kEffort = 40000;
+constexpr std::int64_t kEffort = 40000;
 constexpr double kInOrder = 5.5;    // largest distance to be content with, in root mean squares
 constexpr double kLittle = 0.8;     // distances below this part of what is in order do not count
 constexpr double kNear = 0.6;       // nor do those below this part of the largest
@@ -44,7 +45,9 @@ class DistanceMender {
         enough_(enough),
         workers_(workers),
         folds_(fidelity.surface()),
-        far_points_(mesh, fidelity, enough, workers) {}
+        far_points_(mesh, fidelity, enough, workers) {
+    options_.budget = &budget_;
+  }
 
   [[nodiscard]] const std::vector<FarPoint>& far_points() const { return far_points_.list(); }
 
@@ -81,13 +84,12 @@ class DistanceMender {
   }
 
   bool mend(const FarPoint& place) {
-    options_.effort = &effort_;
     options_.far = std::max(kLittle * enough_, kNear * place.distance);
     const Index t = place.triangle;
     return by_pair(t, 2) || by_pair(t, 3) || by_flips(t, 2) || by_flips(t, 3);
   }
 
-  [[nodiscard]] bool exhausted() const { return effort_ <= 0; }
+  [[nodiscard]] bool exhausted() const { return budget_.exhausted(); }
 
  private:
   // Triangles parted so that the patches around the parts do not overlap, each part as vertices.
@@ -142,7 +144,9 @@ class DistanceMender {
     std::optional<State> before;
     if (!commit_best(patch, sequences, &before)) return false;
     std::vector<Index> touched;
-    if (balance_count(mesh_, fidelity_, -1, options_, workers_, &touched)) {
+    TrialOptions elsewhere = options_;
+    elsewhere.budget = nullptr;
+    if (balance_count(mesh_, fidelity_, -1, elsewhere, workers_, &touched)) {
       renew(touched);
       return true;
     }
@@ -222,7 +226,7 @@ class DistanceMender {
   Fidelity& fidelity_;
   TrialOptions options_;
   double enough_;
-  Index effort_ = kEffort;
+  TrialBudget budget_{kEffort};
   const parallel::Workers& workers_;
   FoldTest folds_;
   FarPoints far_points_;

@@ -3,7 +3,10 @@
 // the flips that restore the valences, and balanced elsewhere so that the count holds.
 #include "refine/last_resorts.h"
 
+#include <algorithm>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "refine/valence_edits.h"
 #include "refine/valence_mending.h"
@@ -55,6 +58,11 @@ class TriangleMender {
   }
 
  private:
+  struct Backup {
+    mesh::EditableMesh mesh;
+    Fidelity fidelity;
+  };
+
   [[nodiscard]] Triangle local(const Patch& patch, Index t) const {
     const Triangle& v = mesh_.triangle(t);
     return {patch.local(v[0]), patch.local(v[1]), patch.local(v[2])};
@@ -63,20 +71,21 @@ class TriangleMender {
   // A change of the number of vertices stays only if it can be made up for elsewhere.
   bool commit_balanced(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
                        int net) {
-    const mesh::EditableMesh mesh_before = mesh_;
-    const Fidelity fidelity_before = fidelity_;
-    if (!commit_if_better(patch, sequences)) return false;
+    std::optional<Backup> before;
+    if (!commit_if_better(patch, sequences, &before)) return false;
     if (balance_count(mesh_, fidelity_, -net, options_, workers_)) return true;
-    mesh_ = mesh_before;
-    fidelity_ = fidelity_before;
+    mesh_ = std::move(before->mesh);
+    fidelity_ = std::move(before->fidelity);
     return false;
   }
 
-  bool commit_if_better(const Patch& patch, const std::vector<std::vector<Edit>>& sequences) {
+  bool commit_if_better(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
+                        std::optional<Backup>* backup = nullptr) {
     PatchScore after;
     std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
     if (!best || !std::isfinite(after.energy) || !better(after, score(patch, options_)))
       return false;
+    if (backup) backup->emplace(Backup{mesh_, fidelity_});
     best->commit(mesh_, fidelity_);
     return true;
   }
@@ -87,6 +96,28 @@ class TriangleMender {
   const parallel::Workers& workers_;
 };
 
+// Those that break the promise first, and of those that nothing has helped so far no others.
+std::vector<Index> most_promising(const mesh::EditableMesh& mesh, std::vector<Index> triangles,
+                                  const TrialOptions& options) {
+  const std::vector<Triangle>& resisting = options.budget->resisting;
+  const AngleTest promise(options.promise);
+  std::erase_if(triangles, [&](Index t) {
+    return promise.inside(mesh, t) &&
+           std::binary_search(resisting.begin(), resisting.end(), mesh.triangle(t));
+  });
+  std::stable_partition(triangles.begin(), triangles.end(),
+                        [&](Index t) { return !promise.inside(mesh, t); });
+  return triangles;
+}
+
+void remember_resisting(const mesh::EditableMesh& mesh, const std::vector<Index>& triangles,
+                        std::vector<Triangle>& resisting) {
+  for (const Index t : triangles)
+    if (mesh.alive_triangle(t)) resisting.push_back(mesh.triangle(t));
+  std::sort(resisting.begin(), resisting.end());
+  resisting.erase(std::unique(resisting.begin(), resisting.end()), resisting.end());
+}
+
 }  // namespace
 
 Index mend_triangles(mesh::EditableMesh& mesh, Fidelity& fidelity,
@@ -96,10 +127,11 @@ Index mend_triangles(mesh::EditableMesh& mesh, Fidelity& fidelity,
   const AngleTest goal(options.goal);
   Index changes = 0;
   Index attempts = kAttempts + mesh.triangle_count() / kTrianglesPerAttempt;
-  for (Index t : triangles) {
+  std::vector<Index> failed;
+  for (Index t : options.budget ? most_promising(mesh, triangles, options) : triangles) {
     if (!mesh.alive_triangle(t) || goal.inside(mesh, t)) continue;
     if (attempts-- <= 0) break;
-    if (!keep_going()) break;
+    if (!keep_going() || (options.budget && options.budget->exhausted())) break;
     bool changed = mender.by_flips(t);
     for (int net : {-1, 1})
       if (!changed && mesh.alive_triangle(t)) changed = mender.by_pair(t, net);
@@ -107,7 +139,9 @@ Index mend_triangles(mesh::EditableMesh& mesh, Fidelity& fidelity,
       for (int net : {-1, 1})
         if (!changed && mesh.alive_triangle(t)) changed = mender.by_curve(t, net);
     changes += changed;
+    if (!changed) failed.push_back(t);
   }
+  if (options.budget) remember_resisting(mesh, failed, options.budget->resisting);
   return changes;
 }
 

@@ -72,8 +72,8 @@ void MinimaxRelaxation::run(int rounds) {
   }
 }
 
-Index MinimaxRelaxation::effort() const {
-  return rounds_ * kPassesPerRound * static_cast<Index>(patch_.inner_vertices().size());
+std::int64_t MinimaxRelaxation::effort() const {
+  return rounds_ * kPassesPerRound * std::ssize(patch_.inner_vertices());
 }
 
 bool MinimaxRelaxation::more_promising(const MinimaxRelaxation& other) const {

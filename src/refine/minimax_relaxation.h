@@ -1,6 +1,7 @@
 // Relaxation of a patch against its largest distance from the surface and its angles at once.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "refine/largest_distance.h"
@@ -24,7 +25,7 @@ class MinimaxRelaxation {
   /// Least of the largest distances on the way, whatever the angles were.
   [[nodiscard]] double least_distance() const { return least_distance_; }
   /// Vertices moved so far, once in every pass.
-  [[nodiscard]] Index effort() const;
+  [[nodiscard]] std::int64_t effort() const;
   /// Whether going on is worth more than with the other. Early on the way it says less how near the
   /// angles have come to the goal than how near the patch is to the surface.
   [[nodiscard]] bool more_promising(const MinimaxRelaxation& other) const;

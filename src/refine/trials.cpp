@@ -11,6 +11,7 @@
 namespace nonobtuse::refine {
 namespace {
 
+constexpr int kShortPasses = 2;
 constexpr std::ptrdiff_t kFinalists = 4;
 // Of a finalist's relaxation against large distances; after some rounds without a lower distance
 // than before the edits it is given up.
@@ -30,7 +31,8 @@ PatchScore score(const Patch& patch, const TrialOptions& options) {
 namespace {
 
 void relax_patch(Patch& patch, const TrialOptions& options, int passes) {
-  const RelaxationOptions relaxation{options.shape, passes, options.on_surface};
+  const RelaxationOptions relaxation{options.shape, passes, options.on_surface,
+                                     patch.fidelity.knots.network() != nullptr};
   const parallel::Workers serial(1);
   std::vector<Index> triangles;
   for (Index t = 0; t < patch.mesh.triangle_capacity(); ++t)
@@ -70,8 +72,8 @@ std::optional<Patch> best_of_far(const Patch& patch,
     trials[i]->run(kSomeRounds);
     if (trials[i]->least_distance() < before) trials[i]->run(kRounds - kSomeRounds);
   });
-  if (options.effort)
-    for (const auto& t : trials) *options.effort -= t->effort();
+  if (options.budget)
+    for (const auto& t : trials) options.budget->spend(t->effort());
   const auto best =
       std::min_element(trials.begin(), trials.begin() + finalists,
                        [](const auto& a, const auto& b) { return a->best_score < b->best_score; });
@@ -84,12 +86,14 @@ std::optional<Patch> best_of_far(const Patch& patch,
 std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
                              const TrialOptions& options, const parallel::Workers& workers,
                              PatchScore& best_score) {
+  if (options.budget && options.budget->exhausted()) return std::nullopt;
   if (std::isfinite(options.far))
     return best_of_far(patch, sequences, options, workers, best_score);
   struct Trial {
     std::optional<Patch> patch;
     PatchScore score;
   };
+  const std::int64_t vertices = std::ssize(patch.inner_vertices());
   std::vector<Trial> trials(sequences.size());
   const auto improve = [&](Trial& trial, int passes) {
     relax_patch(*trial.patch, options, passes);
@@ -98,10 +102,14 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
   // A short relaxation of all, then a long one of the most promising.
   workers.for_each(trials.size(), 1, [&](std::size_t i) {
     trials[i].patch = edited(patch, sequences[i]);
-    if (trials[i].patch) improve(trials[i], 2);
+    if (trials[i].patch) improve(trials[i], kShortPasses);
   });
   std::erase_if(trials, [](const Trial& t) { return !t.patch; });
   if (trials.empty()) return std::nullopt;
+  if (options.budget)
+    options.budget->spend(vertices *
+                          (kShortPasses * std::ssize(trials) +
+                           2 * options.passes * std::min(kFinalists, std::ssize(trials))));
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.score < b.score; });
   trials.erase(trials.begin() + std::min(std::ssize(trials), kFinalists), trials.end());

@@ -1,6 +1,7 @@
 // Trying sequences of edits on copies of a patch: edit, relax, compare.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -12,6 +13,20 @@ namespace nonobtuse::refine {
 
 class FoldTest;
 
+/// What trials may still cost, in relaxations of single vertices: a mesh that resists is given up
+/// after work in proportion to its size, however many places are left.
+class TrialBudget {
+ public:
+  explicit TrialBudget(std::int64_t work) : left_(work) {}
+  void spend(std::int64_t work) { left_ -= work; }
+  [[nodiscard]] bool exhausted() const { return left_ <= 0; }
+
+  std::vector<Triangle> resisting;  ///< vertices of triangles that nothing helped, sorted
+
+ private:
+  std::int64_t left_;
+};
+
 struct TrialOptions {
   energy::ShapeWeights shape;  ///< to relax and to compare by
   AngleGoal promise = kPromise;
@@ -22,13 +37,13 @@ struct TrialOptions {
   /// them; infinity: distances count by their energy alone.
   double far = std::numeric_limits<double>::infinity();
   const FoldTest* folds = nullptr;  ///< if any, counts folds as it does and not by the feet alone
-  Index* effort = nullptr;          ///< against large distances: counted down by vertices moved
+  TrialBudget* budget = nullptr;    ///< shared; none: whatever it takes
 };
 
 PatchScore score(const Patch& patch, const TrialOptions& options);
 
-/// The best of several sequences by score, with its score; nothing if none is possible. Parallel
-/// over the sequences.
+/// The best of several sequences by score, with its score; nothing if none is possible or the
+/// budget is exhausted. Parallel over the sequences.
 std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
                              const TrialOptions& options, const parallel::Workers& workers,
                              PatchScore& best_score);

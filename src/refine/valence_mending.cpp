@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "refine/flips.h"
 #include "refine/valence_edits.h"
@@ -40,19 +41,17 @@ class Mender {
     // A vertex of low valence disappears; on a boundary, which stays, its neighbourhood grows.
     const bool grow = low && mesh_.on_boundary(v);
     const int net = grow ? 0 : low != mesh_.on_boundary(v) ? -1 : 1;
-    const Backup before{mesh_, fidelity_};
     const Patch patch = patch_around(v, effort.rings);
     const auto sequences = search_valence_edits(patch, patch.local(v),
                                                 {grow ? 4 : effort.flips, 12, net, grow ? 2 : 0});
-    return commit_balanced(patch, sequences, before);
+    return commit_balanced(patch, sequences);
   }
 
   // A knot more on a curve beside v.
   bool by_curve(Index v, const Effort& effort) {
-    const Backup before{mesh_, fidelity_};
     const Patch patch = patch_around(v, effort.rings);
     const auto sequences = search_curve_splits(patch, patch.local(v), 6);
-    return !sequences.empty() && commit_balanced(patch, sequences, before);
+    return !sequences.empty() && commit_balanced(patch, sequences);
   }
 
  private:
@@ -62,9 +61,9 @@ class Mender {
   };
 
   // Vertices once the copies of every knot are one.
-  [[nodiscard]] Index glued_count() const {
-    Index count = mesh_.vertex_count();
-    for (const SlidingKnot& knot : fidelity_.knots.all)
+  [[nodiscard]] static Index glued_count(const mesh::EditableMesh& mesh, const Knots& knots) {
+    Index count = mesh.vertex_count();
+    for (const SlidingKnot& knot : knots.all)
       if (!knot.copies.empty()) count -= static_cast<Index>(knot.copies.size()) - 1;
     return count;
   }
@@ -76,21 +75,21 @@ class Mender {
   }
 
   // A change of the number of vertices stays only if it can be made up for elsewhere.
-  bool commit_balanced(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
-                       const Backup& before) {
-    const Index count = glued_count();
-    if (!commit_best(patch, sequences)) return false;
-    while (glued_count() != count) {
-      const int back = glued_count() < count ? 1 : -1;
-      if (balance_count(mesh_, fidelity_, back, options_, workers_)) continue;
-      mesh_ = before.mesh;
-      fidelity_ = before.fidelity;
+  bool commit_balanced(const Patch& patch, const std::vector<std::vector<Edit>>& sequences) {
+    std::optional<Backup> before;
+    if (!commit_best(patch, sequences, &before)) return false;
+    const Index count = glued_count(before->mesh, before->fidelity.knots);
+    for (Index now; (now = glued_count(mesh_, fidelity_.knots)) != count;) {
+      if (balance_count(mesh_, fidelity_, now < count ? 1 : -1, options_, workers_)) continue;
+      mesh_ = std::move(before->mesh);
+      fidelity_ = std::move(before->fidelity);
       return false;
     }
     return true;
   }
 
-  bool commit_best(const Patch& patch, const std::vector<std::vector<Edit>>& sequences) {
+  bool commit_best(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
+                   std::optional<Backup>* backup = nullptr) {
     PatchScore after;
     std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
     if (!best) return false;
@@ -98,6 +97,7 @@ class Mender {
     if ((!bold_ && after.folded > before.folded) || after.bad_valence >= before.bad_valence ||
         !std::isfinite(after.energy) || (strict_ && after.outside_promise > before.outside_promise))
       return false;
+    if (backup) backup->emplace(Backup{mesh_, fidelity_});
     best->commit(mesh_, fidelity_);
     return true;
   }
@@ -202,6 +202,8 @@ Index mend_valences(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOpt
     const Effort effort = efforts[std::min(pass, 2)];
     if (pass >= kPasses - 2) mender.be_bold();
     for (Index v : bad) {
+      if (options.budget && options.budget->exhausted())
+        return static_cast<Index>(bad_valences(mesh, fidelity.valences).size());
       if (!keep_going()) return static_cast<Index>(bad_valences(mesh, fidelity.valences).size());
       if (!mesh.alive_vertex(v) || fidelity.valences.good(v, mesh.valence(v))) continue;
       if (pass >= 1 && dear-- <= 0)

@@ -12,6 +12,7 @@
 #include "features/knot_insertion.h"
 #include "features/narrow_places.h"
 #include "mesh/topology.h"
+#include "nonobtuse/error.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/size_field.h"
 #include "sizing/density.h"
@@ -27,6 +28,10 @@ constexpr double kFeatureEdge = 0.45;    // of an edge length: longest piece of 
                                          // widths are measured
 constexpr double kLeastSize = 0.05;      // of an edge length
 constexpr int kSizeSteps = 8;
+// Creases that would make all other edges longer than this many times are given up, the nearest to
+// each other first.
+constexpr double kMostGrowth = 1.5;
+constexpr double kCloseCreases[] = {0.1, 0.2, 0.4};  // of an edge length
 
 // The input cut open, without knots: what the patches are.
 features::CutSurface patches_of(const mesh::Surface& surface, const features::EdgeFlags& flags) {
@@ -108,21 +113,65 @@ class Planner {
   FeaturePlan run() {
     if (options_.features == Features::Auto)
       features::flag_coarse_creases(plan_.surface, kFlatWidth * kEdgeLength, plan_.flags);
+    // Creases too near each other would take the vertices from everything else.
+    for (const double close : kCloseCreases) {
+      if (!find_curves()) return std::move(plan_);
+      if (settles() || !may_give_up()) return std::move(plan_);
+      give_up_close_creases(close * kEdgeLength);
+    }
+    if (find_curves()) settle();
+    return std::move(plan_);
+  }
+
+ private:
+  // Curves and corners of the flags; false if there are none.
+  bool find_curves() {
     features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
     plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
-    if (plan_.graph.curves.empty() && points_.empty()) return std::move(plan_);
+    if (plan_.graph.curves.empty() && points_.empty()) return false;
     plan_.graph = graph(plan_.surface, plan_.flags,
                         features::sharp_turns(plan_.surface, plan_.graph, kEdgeLength));
     plan_.manifold =
         points_.empty() && std::all_of(plan_.graph.curves.begin(), plan_.graph.curves.end(),
                                        [](const auto& curve) { return curve.facets <= 2; });
     find_frozen();
-    find_sizes();
-    balance();
-    return std::move(plan_);
+    return true;
   }
 
- private:
+  // Shares the vertices out. Returns how many times longer edges become where no features are.
+  double settle() {
+    const double growth = find_sizes();
+    balance();
+    return growth;
+  }
+
+  // Creases that we found ourselves need not be kept.
+  [[nodiscard]] bool may_give_up() const {
+    return options_.features == Features::Auto && options_.feature_edges.empty();
+  }
+
+  // Whether the vertices do without making edges much longer where there are no features.
+  bool settles() {
+    start_ = {plan_.surface, plan_.flags, plan_.graph.corner};
+    try {
+      return settle() <= kMostGrowth;
+    } catch (const TooFewVertices&) {
+      if (!may_give_up()) throw;
+      return false;
+    }
+  }
+
+  // From what was there before the sizes were found. Of creases nearer to each other than `width`
+  // the blunter go.
+  void give_up_close_creases(double width) {
+    features::ResolvedSurface fine = features::resolve_surface(
+        start_.surface, start_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
+    const features::FeatureGraph graph = this->graph(fine.surface, fine.flags, start_.corner);
+    features::merge_close_curves(fine.surface, graph, width, fine.flags);
+    plan_.surface = std::move(fine.surface);
+    plan_.flags = std::move(fine.flags);
+  }
+
   // With the points in which patches touch among its corners.
   [[nodiscard]] features::FeatureGraph graph(const mesh::Surface& surface,
                                              const features::EdgeFlags& flags,
@@ -149,8 +198,8 @@ class Planner {
   }
 
   // Edges shorter than asked for where features need it, and along frozen boundaries as long as
-  // they are there.
-  void find_sizes() {
+  // they are there. Returns by how much edges grow where neither matters.
+  double find_sizes() {
     const double largest =
         plan_.surface.size.empty()
             ? 1
@@ -166,7 +215,7 @@ class Planner {
     bool narrow = !given.empty();
     for (std::size_t v = 0; v < bounds.size(); ++v)
       narrow = narrow || bounds[v] < kEdgeLength * local(v);
-    if (!narrow) return;
+    if (!narrow) return 1;
     plan_.surface = std::move(fine.surface);
     plan_.flags = std::move(fine.flags);
     plan_.graph = std::move(graph);
@@ -191,7 +240,7 @@ class Planner {
     NormalizedInput sized{std::move(plan_.surface), {}};
     set_sizes(length, sized);
     plan_.surface = std::move(sized.surface);
-    balance();
+    return h / kEdgeLength;
   }
 
   // #V: the mean length of the frozen edges at a vertex, 0 elsewhere; empty if there are none.
@@ -228,6 +277,11 @@ class Planner {
   const RemeshOptions& options_;
   const std::vector<Index>& points_;
   FeaturePlan plan_;
+  struct {
+    mesh::Surface surface;
+    features::EdgeFlags flags;
+    std::vector<char> corner;
+  } start_;  // before sizes were found
 };
 
 }  // namespace

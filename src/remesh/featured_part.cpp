@@ -142,7 +142,8 @@ class FeaturedPart {
   // Where the topology of one patch needed more vertices, others give theirs.
   void reduce() {
     const Index extra = glued_count(mesh_, network_.knots.size()) - vertices_;
-    if (extra <= 0) return;
+    if (extra < 0) return add(-extra);
+    if (extra == 0) return;
     rdt::reduce_vertices(cut_.surface, mesh_.vertex_count() - extra, mesh_, foot_);
     rdt::delaunay_flips(cut_.surface, foot_, mesh_);
     const Index left = glued_count(mesh_, network_.knots.size());
@@ -152,6 +153,33 @@ class FeaturedPart {
                       "the {} vertices asked for: {} were reached.",
                       vertices_, left),
           left);
+  }
+
+  // Sites that coincide leave vertices over: these go on the longest edges.
+  void add(Index missing) {
+    for (; missing > 0; --missing) {
+      mesh::Edge longest;
+      double most = 0;
+      for (Index t = 0; t < mesh_.triangle_capacity(); ++t)
+        for (int k = 0; k < 3 && mesh_.alive_triangle(t); ++k) {
+          const mesh::Edge e{t, k};
+          if (mesh_.adjacent(t, k) < 0) continue;
+          const Index a = mesh_.tail(e);
+          const double l =
+              distance(mesh_.positions[a], mesh_.positions[mesh_.head(e)]) / size_at(foot_[a]);
+          if (l > most) most = l, longest = e;
+        }
+      if (!longest.valid()) return;
+      foot_.push_back(foot_[mesh_.tail(longest)]);
+      mesh_.split_edge(longest, 0.5 * (mesh_.positions[mesh_.tail(longest)] +
+                                       mesh_.positions[mesh_.head(longest)]));
+    }
+    rdt::delaunay_flips(cut_.surface, foot_, mesh_);
+  }
+
+  [[nodiscard]] double size_at(Index facet) const {
+    const std::vector<double>& size = cut_.surface.size;
+    return size.empty() ? 1 : size[cut_.surface.triangles[facet][0]];
   }
 
   // Flips interior edges between knots that are joined elsewhere too, since gluing would make them

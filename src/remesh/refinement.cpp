@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "refine/angle_goal.h"
 #include "refine/angle_sweeps.h"
@@ -29,12 +30,15 @@ constexpr double kMostFidelity = 40;
 // Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
 constexpr double kMeanQuality = 0.9465;
 constexpr double kMeanQualityLarge = 0.9425;
-constexpr double kMeanQualitySized = 0.939;  // gradation costs shape
+constexpr double kMeanQualitySized = 0.932;  // gradation costs shape
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
 constexpr double kLeash = 0.05;  // where the size is 1
 constexpr double kMendingLeash = 0.2;
+// Budget of the trials beside creases and boundaries.
+constexpr std::int64_t kTrialWork = 40000;
+constexpr std::int64_t kTrialWorkPerVertex = 100;
 
 class Refinement {
  public:
@@ -81,10 +85,13 @@ class Refinement {
     local.goal = goal;
     local.shape = energy::hinged(100, lo + 1, hi - 1);
     local.on_surface = options_.on_surface;
+    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh_.vertex_count());
+    if (!fidelity_.knots.empty()) local.budget = &budget;
     Index outside = mend_and_sweep(local);
     // Beside creases a second attempt finds a mesh in better order.
     for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
       outside = mend_and_sweep(local);
+    local.budget = nullptr;
     refine::separate_sheets(mesh_, fidelity_, local, workers_,
                             [&](double f) { return tick(0.9 + 0.01 * f); });
     refine::mend_folds(mesh_, fidelity_, local, workers_, [&] { return tick(0.92); });
@@ -103,8 +110,9 @@ class Refinement {
     fidelity_.leash = kMendingLeash / kLeash * leash;
     refine::mend_valences(mesh_, fidelity_, local, false, workers_, [&] { return tick(0.75); });
     fidelity_.leash = leash;
-    return refine::sweep_angles(mesh_, fidelity_, local.goal, options_.on_surface, workers_,
-                                [&](double f) { return tick(0.75 + 0.15 * f); });
+    return refine::sweep_angles(
+        mesh_, fidelity_, local.goal, options_.on_surface, workers_,
+        [&](double f) { return tick(0.75 + 0.15 * f); }, local.budget);
   }
 
   bool tick(double fraction) {

@@ -3,6 +3,8 @@
 // edits is kept if it lowers the defect and the relaxed neighbourhood is sound.
 #include "remesh/valence_optimization.h"
 
+#include <cstdint>
+
 #include "refine/angle_goal.h"
 #include "refine/valence_mending.h"
 
@@ -10,6 +12,9 @@ namespace nonobtuse::pipeline {
 namespace {
 
 constexpr Index kSamplesPerVertex = 3;
+// Budget of the trials beside creases and boundaries.
+constexpr std::int64_t kTrialWork = 40000;
+constexpr std::int64_t kTrialWorkPerVertex = 200;
 
 }  // namespace
 
@@ -33,6 +38,8 @@ Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh&
   refine::TrialOptions options;
   options.shape = energy::hinged(10, 35, 86);
   options.goal = {35, 86};
+  refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh.vertex_count());
+  if (curves) options.budget = &budget;
   double attempts = 0;
   const Index left = refine::mend_valences(mesh, fidelity, options, false, workers, [&] {
     attempts += 1;
