@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "refine/angle_sweeps.h"
@@ -16,9 +17,11 @@
 namespace nonobtuse::refine {
 namespace {
 
-constexpr int kSequences = 24;       // of flips
-constexpr int kPairSequences = 6;    // per vertex
-constexpr int kAttempts = 12;        // places
+constexpr int kSequences = 24;            // of flips
+constexpr int kPairSequences = 6;         // per vertex
+constexpr int kAttempts = 12;             // places
+constexpr std::int64_t kWork = 150000;    // budget of all trials
+constexpr std::size_t kManyOutside = 50;  // triangles outside the goal that are not swept again
 constexpr double kSuspicious = 0.5;  // cosine between a triangle's normal and what is around it
 
 using Corners = std::array<Vec3, 3>;
@@ -81,9 +84,11 @@ class FoldMender {
         workers_(workers),
         folds_(find_folds(mesh, fidelity, test, workers)) {
     options_.folds = &test;
+    options_.budget = &budget_;
   }
 
   [[nodiscard]] const std::vector<std::vector<Index>>& folds() const { return folds_; }
+  [[nodiscard]] bool exhausted() const { return budget_.exhausted(); }
 
   // A pleat mostly has a vertex too many.
   bool mend(const std::vector<Index>& fold) {
@@ -143,9 +148,12 @@ class FoldMender {
     best->commit(mesh_, fidelity_);
     TrialOptions elsewhere = options_;
     elsewhere.promise = elsewhere.goal;
+    elsewhere.budget = nullptr;
     if (net == 0 || balance_count(mesh_, fidelity_, -net, elsewhere, workers_)) {
-      sweep_angles(mesh_, fidelity_, options_.goal, options_.on_surface, workers_,
-                   [](double) { return true; });
+      if (outside_before < kManyOutside)
+        sweep_angles(
+            mesh_, fidelity_, options_.goal, options_.on_surface, workers_,
+            [](double) { return true; }, &budget_);
       std::vector<std::vector<Index>> folds = find_folds(mesh_, fidelity_, test_, workers_);
       if (folds.size() < folds_.size() && outside() <= outside_before) {
         folds_ = std::move(folds);
@@ -163,6 +171,7 @@ class FoldMender {
   const FoldTest& test_;
   const parallel::Workers& workers_;
   std::vector<std::vector<Index>> folds_;
+  TrialBudget budget_{kWork};
 };
 
 }  // namespace
@@ -210,7 +219,8 @@ Index mend_folds(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOption
   FoldMender mender(mesh, fidelity, options, test, workers);
   Index changes = 0;
   std::size_t next = 0;  // those before resist
-  for (int attempt = 0; attempt < kAttempts && next < mender.folds().size(); ++attempt) {
+  for (int attempt = 0; attempt < kAttempts && next < mender.folds().size() && !mender.exhausted();
+       ++attempt) {
     if (!keep_going()) break;
     const std::vector<Index> fold = mender.folds()[next];
     if (mender.mend(fold)) {
