@@ -25,7 +25,7 @@ constexpr int kAttempts = 24;      // places
 constexpr int kClusterRounds = 12;
 constexpr int kClusterRings = 3;
 // Vertices moved, once in every pass, for all places together.
-constexpr std::int64_t kEffort = 40000;
+constexpr std::int64_t kEffort = 30000;
 constexpr double kInOrder = 5.5;    // largest distance to be content with, in root mean squares
 constexpr double kLittle = 0.8;     // distances below this part of what is in order do not count
 constexpr double kNear = 0.6;       // nor do those below this part of the largest

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "refine/angle_sweeps.h"
 #include "refine/crossing_triangles.h"
@@ -76,13 +77,13 @@ std::vector<std::vector<Index>> find_folds(const mesh::EditableMesh& mesh, const
 class FoldMender {
  public:
   FoldMender(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options,
-             const FoldTest& test, const parallel::Workers& workers)
+             const FoldTest& test, const parallel::Workers& workers, bool crossings)
       : mesh_(mesh),
         fidelity_(fidelity),
         options_(options),
         test_(test),
         workers_(workers),
-        folds_(find_folds(mesh, fidelity, test, workers)) {
+        folds_(find_folds(mesh, fidelity, test, workers, crossings)) {
     options_.folds = &test;
     options_.budget = &budget_;
   }
@@ -154,7 +155,7 @@ class FoldMender {
         sweep_angles(
             mesh_, fidelity_, options_.goal, options_.on_surface, workers_,
             [](double) { return true; }, &budget_);
-      std::vector<std::vector<Index>> folds = find_folds(mesh_, fidelity_, test_, workers_);
+      std::vector<std::vector<Index>> folds = find_folds(mesh_, fidelity_, test_, workers_, true);
       if (folds.size() < folds_.size() && outside() <= outside_before) {
         folds_ = std::move(folds);
         return true;
@@ -214,9 +215,10 @@ Index FoldTest::count(const Patch& patch) const {
 }
 
 Index mend_folds(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options,
-                 const parallel::Workers& workers, const std::function<bool()>& keep_going) {
+                 const parallel::Workers& workers, const std::function<bool()>& keep_going,
+                 bool crossings) {
   const FoldTest test(fidelity.surface());
-  FoldMender mender(mesh, fidelity, options, test, workers);
+  FoldMender mender(mesh, fidelity, options, test, workers, crossings);
   Index changes = 0;
   std::size_t next = 0;  // those before resist
   for (int attempt = 0; attempt < kAttempts && next < mender.folds().size() && !mender.exhausted();

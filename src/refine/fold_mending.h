@@ -27,8 +27,10 @@ class FoldTest {
 };
 
 /// By flips, or a vertex more or less there and one less or more in a flat place. Keeps what gets
-/// rid of folds without spoiling valences or angles. Returns the number of changes.
+/// rid of folds without spoiling valences or angles. Without `crossings` nothing crosses at the
+/// beginning. Returns the number of changes.
 Index mend_folds(mesh::EditableMesh& mesh, Fidelity& fidelity, const TrialOptions& options,
-                 const parallel::Workers& workers, const std::function<bool()>& keep_going);
+                 const parallel::Workers& workers, const std::function<bool()>& keep_going,
+                 bool crossings = true);
 
 }  // namespace nonobtuse::refine

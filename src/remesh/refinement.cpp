@@ -92,9 +92,10 @@ class Refinement {
     for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
       outside = mend_and_sweep(local);
     local.budget = nullptr;
-    refine::separate_sheets(mesh_, fidelity_, local, workers_,
-                            [&](double f) { return tick(0.9 + 0.01 * f); });
-    refine::mend_folds(mesh_, fidelity_, local, workers_, [&] { return tick(0.92); });
+    const Index crossings = refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                                                    [&](double f) { return tick(0.9 + 0.01 * f); });
+    refine::mend_folds(
+        mesh_, fidelity_, local, workers_, [&] { return tick(0.92); }, crossings > 0);
     if (refine::mend_distance(mesh_, fidelity_, local, workers_,
                               [&](double f) { return tick(0.93 + 0.05 * f); }) > 0)
       refine::separate_sheets(mesh_, fidelity_, local, workers_,
