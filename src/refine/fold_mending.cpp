@@ -55,9 +55,12 @@ bool is_suspicious(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Ind
 
 // The vertices of every fold: of a triangle that is turned over, or of two that cross.
 std::vector<std::vector<Index>> find_folds(const mesh::EditableMesh& mesh, const Fidelity& fidelity,
-                                           const FoldTest& test, const parallel::Workers& workers) {
+                                           const FoldTest& test, const parallel::Workers& workers,
+                                           bool crossings) {
   std::vector<std::vector<Index>> folds;
-  for (const auto& [a, b] : crossing_triangles(mesh, fidelity.knots, workers)) {
+  std::vector<std::pair<Index, Index>> pairs;
+  if (crossings) pairs = crossing_triangles(mesh, fidelity.knots, workers);
+  for (const auto& [a, b] : pairs) {
     std::vector<Index>& fold = folds.emplace_back();
     for (const Index t : {a, b})
       for (const Index v : mesh.triangle(t)) fold.push_back(v);
