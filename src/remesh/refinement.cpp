@@ -13,6 +13,7 @@
 #include "refine/distance_mending.h"
 #include "refine/fidelity.h"
 #include "refine/flips.h"
+#include "refine/fold_mending.h"
 #include "refine/global_descent.h"
 #include "refine/sheet_separation.h"
 #include "refine/valence_mending.h"
@@ -94,10 +95,14 @@ class Refinement {
     for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
       outside = mend_and_sweep(local);
     local.budget = nullptr;
-    refine::mend_distance(mesh_, fidelity_, local, workers_,
-                          [&](double f) { return tick(0.9 + 0.05 * f); });
-    refine::separate_sheets(mesh_, fidelity_, local, workers_,
-                            [&](double f) { return tick(0.95 + 0.05 * f); });
+    const Index crossings = refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                                                    [&](double f) { return tick(0.9 + 0.01 * f); });
+    refine::mend_folds(
+        mesh_, fidelity_, local, workers_, [&] { return tick(0.92); }, crossings > 0);
+    if (refine::mend_distance(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.93 + 0.05 * f); }) > 0)
+      refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.98 + 0.02 * f); });
     return outside == 0 ? 0 : outside_goal(goal);
   }
 
