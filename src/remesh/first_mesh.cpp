@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "energy/mesh_shape.h"
-#include "remesh/cvt_optimization.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/localized_cvt.h"
 #include "remesh/mesh_subdivision.h"
@@ -54,21 +53,21 @@ void settle(const mesh::Surface& surface, MeshOnSurface& tessellation,
 
 }  // namespace
 
-FirstMesh first_mesh(const mesh::Surface& surface, Index vertices, std::uint64_t seed,
+FirstMesh first_mesh(const mesh::Surface& surface, const CvtOptions& options,
                      const parallel::Workers& workers, parallel::Monitor& monitor) {
   FirstMesh result;
+  const Index vertices = options.sites;
   const Components components = connected_components(surface);
   if (!is_suited(surface, components, vertices)) return result;
   // The midpoints of all edges will join them: V + E of a closed mesh is 4 V - 3 x.
   const auto coarse = static_cast<Index>(std::round((vertices + 3.0 * components.euler[0]) / 4));
-  CvtOptions options;
-  options.sites = coarse;
-  options.seed = seed;
-  options.iterations = options.coarse_iterations;
-  options.tolerance = options.coarse_tolerance;
-  options.coarse_levels = 0;
-  options.recorded = false;
-  result.coarse_sites = optimize_cvt(surface, options, workers, monitor);
+  CvtOptions of_coarse = options;
+  of_coarse.sites = coarse;
+  of_coarse.iterations = options.coarse_iterations;
+  of_coarse.tolerance = options.coarse_tolerance;
+  of_coarse.coarse_levels = 0;
+  of_coarse.recorded = false;
+  result.coarse_sites = optimize_cvt(surface, of_coarse, workers, monitor);
   if (monitor.cancelled()) return result;
   SiteCells cells = site_cells(surface, result.coarse_sites, workers);
   if (!cells.defects.empty() || cells.localized.orphans > 0) return result;

@@ -2,12 +2,12 @@
 // exact dual of their cells, and from there on meshes alone, coarse to fine.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "mesh/surface.h"
 #include "parallel/monitor.h"
 #include "parallel/workers.h"
+#include "remesh/cvt_optimization.h"
 #include "remesh/mesh_tessellation.h"
 
 namespace nonobtuse::pipeline {
@@ -22,9 +22,10 @@ struct FirstMesh {
 };
 
 /// For a closed, connected surface without sizing. Nothing for others and for few vertices; coarse
-/// sites alone where the surface is so thin that their cells reach through it. Working coordinates.
-/// Same bits for any number of threads. After a cancellation: as far as it came.
-FirstMesh first_mesh(const mesh::Surface& surface, Index vertices, std::uint64_t seed,
+/// sites alone where the surface is so thin that their cells reach through it. `options` are those
+/// of `optimize_cvt` with all sites. Working coordinates. Same bits for any number of threads.
+/// After a cancellation: as far as it came.
+FirstMesh first_mesh(const mesh::Surface& surface, const CvtOptions& options,
                      const parallel::Workers& workers, parallel::Monitor& monitor);
 
 }  // namespace nonobtuse::pipeline

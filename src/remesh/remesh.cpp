@@ -73,7 +73,7 @@ StartingMesh starting_mesh(const mesh::Surface& surface, Index n, const RemeshOp
   std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
     pipeline::CvtOptions cvt = pipeline::cvt_options(options, n);
     if (options.method == Method::Default)
-      first = pipeline::first_mesh(surface, n, options.seed, workers, monitor);
+      first = pipeline::first_mesh(surface, cvt, workers, monitor);
     if (first.tessellation.mesh.vertex_count() > 0) return std::vector<Vec3>{};
     cvt.start = std::move(first.coarse_sites);
     return pipeline::optimize_cvt(surface, cvt, workers, monitor);

@@ -117,7 +117,7 @@ TEST(MeshSubdivision, HasTheCountAskedForAndNewVerticesOfValenceSix) {
 FirstMesh run(const mesh::Surface& surface, Index n, int threads) {
   const Context context;
   parallel::Monitor monitor(context);
-  return first_mesh(surface, n, 1, parallel::Workers(threads), monitor);
+  return first_mesh(surface, {.sites = n, .seed = 1}, parallel::Workers(threads), monitor);
 }
 
 TEST(FirstMesh, HasTheSurfacesTopologyAndTheSameBitsForAnyThreads) {

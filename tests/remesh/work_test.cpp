@@ -39,7 +39,7 @@ TEST(Work, TheFirstMeshTakesFewSteps) {
     return true;
   };
   parallel::Monitor monitor(context);
-  const FirstMesh first = first_mesh(surface, kSites, 0, parallel::Workers(1), monitor);
+  const FirstMesh first = first_mesh(surface, {.sites = kSites}, parallel::Workers(1), monitor);
   EXPECT_EQ(first.tessellation.mesh.vertex_count(), kSites);
   EXPECT_LE(ticks, 56) << "counted when the bound was set: 47";
 }
