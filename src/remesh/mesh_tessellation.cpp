@@ -26,8 +26,9 @@ constexpr int kFlipSweeps = 3;
 constexpr double kHinge = 3;
 constexpr double kSmallest = 20;
 constexpr double kLargest = 100;
-constexpr int kStepsBetweenDensities = 5;
+constexpr int kStepsBetweenDensities = 10;
 constexpr double kMostDensity = 4;
+constexpr double kNearEdge = 0.04;  // squared, times half the edge
 constexpr int kStepsBetweenValences = 10;
 constexpr int kStepsOfRelaxation = 3;
 constexpr int kRoundsOfUnfolding = 10;
@@ -38,7 +39,9 @@ Vec3 over_middle(const refine::Fidelity& walker, const EditableMesh& mesh,
                  const std::vector<Index>& foot, Index a, Index b) {
   const Vec3 middle = 0.5 * (mesh.positions[a] + mesh.positions[b]);
   const Vec3 p = walker.walk_foot(middle, foot[a]).point;
-  if (foot[a] == foot[b]) return p;
+  // Near the edge there is nothing that a walk from the other end could find.
+  if (squared_distance(p, middle) < kNearEdge * squared_distance(mesh.positions[a], middle))
+    return p;
   const Vec3 q = walker.walk_foot(middle, foot[b]).point;
   return squared_distance(p, middle) <= squared_distance(q, middle) ? p : q;
 }
