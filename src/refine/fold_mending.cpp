@@ -22,7 +22,7 @@ constexpr int kSequences = 24;            // of flips
 constexpr int kPairSequences = 6;         // per vertex
 constexpr int kFirstOfTwo = 2;            // per vertex, where two vertices more or less are tried
 constexpr int kAttempts = 12;             // places
-constexpr std::int64_t kWork = 150000;    // budget of all trials
+constexpr std::int64_t kWork = 40000;     // budget of all trials
 constexpr std::size_t kManyOutside = 50;  // triangles outside the goal that are not swept again
 constexpr double kSuspicious = 0.5;  // cosine between a triangle's normal and what is around it
 
