@@ -13,6 +13,7 @@
 #include "refine/distance_mending.h"
 #include "refine/fidelity.h"
 #include "refine/flips.h"
+#include "refine/fold_mending.h"
 #include "refine/global_descent.h"
 #include "refine/sheet_separation.h"
 #include "refine/valence_mending.h"
@@ -23,6 +24,8 @@ namespace {
 
 constexpr Index kSamplesPerVertex = 8;
 constexpr int kStepsBetweenFlips = 5;
+constexpr int kStepsToSettle = 14;
+constexpr int kStepsIfSettled = 10;
 constexpr double kFidelity = 20;  // weight at the start
 constexpr double kLeastFidelity = 6;
 constexpr double kMostFidelity = 40;
@@ -66,7 +69,8 @@ class Refinement {
   Index run() {
     const double lo = options_.min_angle, hi = options_.max_angle;
     // First wide open, so that shape and fidelity find their balance; then two degrees inside.
-    descend(14, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
+    descend(options_.settled ? kStepsIfSettled : kStepsToSettle,
+            energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
     const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
     // Beside creases the connectivity is less free, and vertices would rather leave the surface.
     if (!fidelity_.knots.empty()) fidelity_.leash = kLeash;
@@ -91,10 +95,14 @@ class Refinement {
     for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
       outside = mend_and_sweep(local);
     local.budget = nullptr;
-    refine::mend_distance(mesh_, fidelity_, local, workers_,
-                          [&](double f) { return tick(0.9 + 0.05 * f); });
-    refine::separate_sheets(mesh_, fidelity_, local, workers_,
-                            [&](double f) { return tick(0.95 + 0.05 * f); });
+    const Index crossings = refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                                                    [&](double f) { return tick(0.9 + 0.01 * f); });
+    refine::mend_folds(
+        mesh_, fidelity_, local, workers_, [&] { return tick(0.92); }, crossings > 0);
+    if (refine::mend_distance(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.93 + 0.05 * f); }) > 0)
+      refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.98 + 0.02 * f); });
     return outside == 0 ? 0 : outside_goal(goal);
   }
 
