@@ -20,6 +20,7 @@ namespace nonobtuse::features {
 namespace {
 
 constexpr double kOfWidth = 0.7;
+constexpr double kOfRing = 1;     // between closed curves a strip needs no row of inner vertices
 constexpr double kWedge = 4;      // paths along curves shorter than this many distances: a corner
 constexpr double kInwards = 0.3;  // cosine: how squarely the other curve is faced
 constexpr double kClosedSegments = 6;
@@ -51,9 +52,11 @@ class WidthFinder {
     find_sides(flags);
   }
 
-  void bound(std::vector<double>& bounds) {
-    for_each_place([&](Index v, const Side&, double width) {
-      bounds[v] = std::min(bounds[v], kOfWidth * width);
+  // `closed` (#V): on closed curves that need not be told apart by inner vertices.
+  void bound(const std::vector<char>& closed, std::vector<double>& bounds) {
+    for_each_place([&](Index v, const Side& side, double width) {
+      const bool ring = closed[v] != 0 && closed[ends(side).first] != 0;
+      bounds[v] = std::min(bounds[v], (ring ? kOfRing : kOfWidth) * width);
     });
   }
 
@@ -238,7 +241,7 @@ std::vector<double> total_turns(const mesh::Surface& surface, const EdgeFlags& f
 }  // namespace
 
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
-                                  const FeatureGraph& graph, double h) {
+                                  const FeatureGraph& graph, double h, bool frugal) {
   std::vector<double> bounds(surface.vertices.size(), kInfinite);
   for (const FeatureCurve& curve : graph.curves) {
     const double length = curve_lengths(surface, curve).arc.back();
@@ -246,7 +249,10 @@ std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags&
     if (!(bound < h)) continue;
     for (const Index v : curve.vertices) bounds[v] = std::min(bounds[v], bound);
   }
-  WidthFinder(surface, flags, h / kOfWidth).bound(bounds);
+  std::vector<char> closed(surface.vertices.size(), 0);
+  for (const FeatureCurve& curve : graph.curves)
+    for (const Index v : curve.vertices) closed[v] = frugal && curve.closed ? 1 : 0;
+  WidthFinder(surface, flags, h / kOfWidth).bound(closed, bounds);
   return bounds;
 }
 

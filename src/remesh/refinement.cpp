@@ -90,6 +90,7 @@ class Refinement {
     // Beside creases a second attempt finds a mesh in better order.
     for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
       outside = mend_and_sweep(local);
+    if (local.budget) keep_promise();
     local.budget = nullptr;
     refine::mend_distance(mesh_, fidelity_, local, workers_,
                           [&](double f) { return tick(0.9 + 0.05 * f); });
@@ -109,6 +110,17 @@ class Refinement {
     return refine::sweep_angles(
         mesh_, fidelity_, local.goal, options_.on_surface, workers_,
         [&](double f) { return tick(0.75 + 0.15 * f); }, local.budget);
+  }
+
+  // Where not even the promise is kept, bounds so far inside only stand in the way.
+  void keep_promise() {
+    if (refine::triangles_outside(mesh_, refine::AngleTest(refine::kPromise)).empty()) return;
+    const refine::AngleGoal least{std::min(options_.min_angle, refine::kPromise.smallest + 1),
+                                  std::max(options_.max_angle, refine::kPromise.largest - 1)};
+    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 * mesh_.vertex_count());
+    refine::sweep_angles(
+        mesh_, fidelity_, least, options_.on_surface, workers_,
+        [&](double f) { return tick(0.85 + 0.05 * f); }, &budget);
   }
 
   bool tick(double fraction) {
