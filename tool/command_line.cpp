@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "nonobtuse/version.h"
-#include "report_file.h"
+#include "remesh_options.h"
 
 namespace nonobtuse::tool {
 namespace {
@@ -77,104 +75,6 @@ void check_output(const OutputOptions& output) {
     throw UsageError(fmt::format("the output '{}' is a folder, not a file", output.path));
 }
 
-void check_report(const std::string& path) {
-  if (path.empty()) return;
-  if (!is_html(path) && !is_json(path))
-    throw UsageError(fmt::format("the name of the report '{}' must end in .html or .json", path));
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code error;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
-    throw UsageError(fmt::format("the folder of the report '{}' does not exist", path));
-  if (std::filesystem::is_directory(path, error))
-    throw UsageError(fmt::format("the report '{}' is a folder, not a file", path));
-}
-
-double parse_number(const std::string& text, const std::string& whole, const char* option) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value) || value <= 0)
-    throw UsageError(fmt::format(
-        "{} must be a positive length such as 0.5, or 1% of the bounding-box diagonal, not '{}'",
-        option, whole));
-  return value;
-}
-
-void set_max_error(const std::string& text, RemeshOptions& options) {
-  if (!text.empty() && text.back() == '%') {
-    options.relative_max_error =
-        parse_number(text.substr(0, text.size() - 1), text, "--max-error") / 100;
-  } else {
-    options.max_error = parse_number(text, text, "--max-error");
-  }
-}
-
-void set_edge_length(const std::string& text, RemeshOptions& options) {
-  if (!text.empty() && text.back() == '%') {
-    options.relative_edge_length =
-        parse_number(text.substr(0, text.size() - 1), text, "--edge-length") / 100;
-  } else {
-    options.edge_length = parse_number(text, text, "--edge-length");
-  }
-}
-
-Method parse_method(const std::string& text) {
-  if (text == "default") return Method::Default;
-  if (text == "cvt") return Method::Cvt;
-  if (text == "cvt-fs") return Method::CvtFs;
-  if (text == "cvt-nob") return Method::CvtNob;
-  throw UsageError(fmt::format("--method must be default, cvt, cvt-fs or cvt-nob, not '{}'", text));
-}
-
-// A file may be called like one of the words if its path says so: ./uniform.
-void set_sizing(const std::string& text, RemeshCommand& command) {
-  RemeshOptions& options = command.options;
-  if (text == "uniform") {
-    options.sizing = Sizing::Uniform;
-  } else if (text == "lfs") {
-    options.sizing = Sizing::LocalFeatureSize;
-  } else if (text == "curvature") {
-    options.sizing = Sizing::Curvature;
-  } else {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(text, error))
-      throw UsageError(fmt::format(
-          "--sizing must be uniform, lfs, curvature or a file of lengths, not '{}'", text));
-    options.sizing = Sizing::Given;
-    command.sizes = text;
-  }
-  if (!(options.gradation > 0)) throw UsageError("--gradation must be positive");
-}
-
-// Likewise: ./auto is a file.
-void set_features(const std::string& text, RemeshCommand& command) {
-  RemeshOptions& options = command.options;
-  char* end = nullptr;
-  const double degrees = std::strtod(text.c_str(), &end);
-  if (text == "auto") {
-    options.features = Features::Auto;
-  } else if (text == "none") {
-    options.features = Features::None;
-  } else if (!text.empty() && *end == '\0') {
-    if (!(degrees > 0 && degrees <= 180))
-      throw UsageError(fmt::format("--features must be an angle in (0, 180], not '{}'", text));
-    options.features = Features::Dihedral;
-    options.feature_angle = degrees;
-  } else {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(text, error))
-      throw UsageError(fmt::format(
-          "--features must be auto, none, an angle in degrees or a file of edges, not '{}'", text));
-    options.features = Features::Given;
-    command.feature_edges = text;
-  }
-}
-
-Boundary parse_boundary(const std::string& text) {
-  if (text == "resample") return Boundary::Resample;
-  if (text == "freeze") return Boundary::Freeze;
-  throw UsageError(fmt::format("--boundary must be resample or freeze, not '{}'", text));
-}
-
 void add_output(CLI::App& command, OutputOptions& output) {
   command.add_option("-o,--output", output.path, "File to write: .obj, .off, .ply or .stl")
       ->required()
@@ -191,128 +91,20 @@ void add_threads(CLI::App& command, int& threads) {
 
 // Everything a command line can fill in, before we know which command it names.
 struct Draft {
-  RemeshCommand remesh;
-  std::optional<std::string> edge_length;
-  std::optional<std::string> max_error;
-  std::string method = "default";
-  std::string sizing = "uniform";
-  std::string features = "auto";
-  std::string boundary = "resample";
+  RemeshDraft remesh;
   MeasureCommand measure;
   CertifyCommand certify;
   ConvertCommand convert;
   SampleCommand sample;
 };
 
-void add_remesh(CLI::App& app, Draft& draft) {
-  RemeshCommand& c = draft.remesh;
+void add_remesh(CLI::App& app, RemeshDraft& draft) {
   CLI::App& command = *app.add_subcommand("remesh", "Remesh a surface (the word may be left out)");
   command.footer(kRemeshFooter);
-  command.add_option("input", c.input, "Mesh to read")->required()->type_name("FILE");
-  add_output(command, c.output);
-  CLI::Option* vertices =
-      command
-          .add_option("--vertices", c.options.vertices,
-                      "Vertices of the result, exactly; default: as many as the input has")
-          ->check(CLI::Range(1, 100'000'000))
-          ->type_name("N");
-  command
-      .add_option("--edge-length", draft.edge_length,
-                  "Instead of --vertices: target edge length, or 1% of the bounding-box diagonal")
-      ->excludes(vertices)
-      ->type_name("L");
-  command
-      .add_option("--sizing", draft.sizing,
-                  "How the edge length varies: uniform; lfs: finer at small features; curvature: "
-                  "finer where it bends; or a file with a target edge length per input vertex, one "
-                  "number a line")
-      ->type_name("uniform|lfs|curvature|FILE")
-      ->capture_default_str();
-  command
-      .add_option("--gradation", c.options.gradation,
-                  "How fast the target edge length may grow along the surface, per length")
-      ->type_name("G")
-      ->capture_default_str();
-  command
-      .add_option("--max-error", draft.max_error,
-                  "Add vertices until the two-sided distance to the input, as measured, is at most "
-                  "this length, or 0.2% of the bounding-box diagonal")
-      ->type_name("E");
-  command
-      .add_option(
-          "--features", draft.features,
-          "Edges of the input that stay edges: auto: sharp creases, none on smooth surfaces; "
-          "none; DEG: all edges at which the surface turns by so many degrees; or a file "
-          "with two vertex numbers (from 0) per edge, one edge a line. Boundaries always do")
-      ->type_name("auto|none|DEG|FILE")
-      ->capture_default_str();
-  command
-      .add_option(
-          "--boundary", draft.boundary,
-          "Boundary vertices: resample: along the boundary curve, its corners kept; freeze: "
-          "exactly those of the input")
-      ->type_name("resample|freeze")
-      ->capture_default_str();
-  command
-      .add_option(
-          "--method", draft.method,
-          "default: CVT, then refinement on the mesh; the methods of Yan & Wonka 2016: cvt: "
-          "CVT alone; cvt-fs: then with the feature-sensitive energy; cvt-nob: with the "
-          "short-dual penalty, first without and then with that energy")
-      ->type_name("default|cvt|cvt-fs|cvt-nob")
-      ->capture_default_str();
-  command
-      .add_option("--normal-weight", c.options.normal_weight,
-                  "Weight s of the normal part in the feature-sensitive energy of cvt-fs and "
-                  "cvt-nob; 1 leaves it out")
-      ->check(CLI::Range(1.0, 1e6))
-      ->type_name("S")
-      ->capture_default_str();
-  command
-      .add_option("--iterations", c.options.iterations,
-                  "L-BFGS iterations of every stage of cvt, cvt-fs and cvt-nob; default: 40")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N");
-  command.add_option("--penalty", c.options.penalty, "Weight lambda of the penalty of cvt-nob")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("LAMBDA")
-      ->capture_default_str();
-  command.add_option("--min-angle", c.options.min_angle, "Every angle at least this, degrees")
-      ->type_name("DEG")
-      ->capture_default_str();
-  command.add_option("--max-angle", c.options.max_angle, "Every angle below this, degrees")
-      ->type_name("DEG")
-      ->capture_default_str();
-  command.add_flag("--keep-seams", c.keep_seams,
-                   "Keep the seams of a texture and the borders between face labels as edges");
-  command.add_flag("--on-surface", c.options.on_surface,
-                   "Keep every vertex on the input, instead of at the offset that minimises the "
-                   "distance");
-  command.add_option("--seed", c.options.seed, "Seed of the random start")
-      ->type_name("N")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            const bool fine = !text.empty() && text.size() < 20 &&
-                              text.find_first_not_of("0123456789") == std::string::npos;
-            return fine ? std::string()
-                        : "it must be a whole number of at most 19 digits, not '" + text + "'";
-          },
-          ""))
-      ->capture_default_str();
-  add_threads(command, c.threads);
-  command.add_flag("--no-distance", c.no_distance,
-                   "Do not measure the distance between input and result for the table");
-  command
-      .add_option("--report", c.report,
-                  "Also write a report: .html, one page with both surfaces, figures and places; "
-                  ".json, its data (docs/json.md)")
-      ->type_name("FILE");
-  command.add_flag("--quiet", c.quiet, "Print nothing but errors");
-  command.add_flag("--progress", c.progress,
-                   "Report progress on stderr even if that is no terminal");
-  command.add_flag("--json", c.json, "Print a report as JSON (docs/json.md) instead of the table");
-  command.add_flag("--history", c.options.history,
-                   "With --json: energy and number of bad triangles, iteration by iteration");
+  command.add_option("input", draft.command.input, "Mesh to read")->required()->type_name("FILE");
+  add_output(command, draft.command.output);
+  add_threads(command, draft.command.threads);
+  add_remesh_options(command, draft);
 }
 
 void add_measure(CLI::App& app, MeasureCommand& c) {
@@ -389,25 +181,10 @@ void check_bounds(double min_angle, double max_angle) {
 CommandLine checked(const CLI::App& app, Draft& draft) {
   CommandLine line;
   if (app.got_subcommand("remesh")) {
-    RemeshOptions& options = draft.remesh.options;
-    if (draft.edge_length) set_edge_length(*draft.edge_length, options);
-    if (draft.max_error) set_max_error(*draft.max_error, options);
-    options.method = parse_method(draft.method);
-    set_sizing(draft.sizing, draft.remesh);
-    set_features(draft.features, draft.remesh);
-    if (draft.remesh.keep_seams && options.features == Features::None)
-      throw UsageError("--keep-seams makes features of seams; --features none forbids any");
-    options.boundary = parse_boundary(draft.boundary);
-    if (options.iterations > 0 && options.method == Method::Default)
-      throw UsageError("--iterations is for the methods cvt, cvt-fs and cvt-nob only");
-    if (options.history && !draft.remesh.json && draft.remesh.report.empty())
-      throw UsageError("--history adds to the JSON report: give --json or --report too");
-    if (!draft.remesh.report.empty()) options.history = true;
-    check_bounds(options.min_angle, options.max_angle);
-    if (options.min_angle >= 60) throw UsageError("--min-angle must be below 60");
-    check_output(draft.remesh.output);
-    check_report(draft.remesh.report);
-    line.remesh = draft.remesh;
+    RemeshCommand command = checked(draft.remesh);
+    check_bounds(command.options.min_angle, command.options.max_angle);
+    check_output(command.output);
+    line.remesh = std::move(command);
   } else if (app.got_subcommand("measure")) {
     line.measure = draft.measure;
   } else if (app.got_subcommand("certify")) {
@@ -461,7 +238,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "nonobtuse " NONOBTUSE_VERSION);
   Draft draft;
-  add_remesh(app, draft);
+  add_remesh(app, draft.remesh);
   add_measure(app, draft.measure);
   add_certify(app, draft.certify);
   add_convert(app, draft.convert);

@@ -25,14 +25,22 @@ class Watcher {
     stage_ = progress.stage;
     heard_ = now;
     const nb::gil_scoped_acquire acquire;
+    if (!look_for_signals()) return false;
     try {
-      if (PyErr_CheckSignals() != 0) throw nb::python_error();
       if (callback_.is_none()) return true;
       return goes_on(callback_(stage_, progress.fraction, message_of(progress)));
     } catch (nb::python_error& error) {
       error_ = nb::borrow(error.value());
       return false;
     }
+  }
+
+  // With the GIL. False: stop. Once more at the end, or a late Ctrl-C would cost the result.
+  bool look_for_signals() {
+    if (PyErr_CheckSignals() == 0) return true;
+    const nb::python_error error;  // takes what was raised
+    if (!failed()) error_ = nb::borrow(error.value());
+    return false;
   }
 
   [[nodiscard]] bool failed() const { return error_.is_valid(); }
@@ -240,6 +248,7 @@ nb::dict remesh_arrays(const VertexArray& vertices, const FaceArray& faces, Inde
     outcome =
         clean_and_remesh(given, std::move(attributes), clean_first, options, context, watcher);
   }
+  watcher.look_for_signals();
   return to_dict(std::move(outcome), watcher.error());
 }
 

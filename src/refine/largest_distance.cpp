@@ -11,6 +11,7 @@ namespace {
 TriangleFrame frame_of(const std::array<Vec3, 3>& p) { return {p[0], p[1], p[2]}; }
 
 constexpr int kBisections = 2;  // of half edges
+constexpr double kHasty = 0.7;  // edges with both ends nearer than this part are skipped in haste
 
 // A point of T whose distance from its own foot on M is known.
 struct Known {
@@ -27,8 +28,8 @@ template <class Visit>
 class PointSearch {
  public:
   PointSearch(const mesh::EditableMesh& mesh, const Fidelity& fidelity, double far,
-              const Visit& visit)
-      : mesh_(mesh), fidelity_(fidelity), far_(far), visit_(visit) {}
+              const Visit& visit, bool hasty)
+      : mesh_(mesh), fidelity_(fidelity), far_(far), visit_(visit), hasty_(hasty) {}
 
   double search(Index t) {
     const std::array<Vec3, 3> p = corners(mesh_, t);
@@ -63,6 +64,7 @@ class PointSearch {
   }
   void bisect(const Known& a, const Known& b, int plane, int depth) {
     if (depth == 0) return;
+    if (hasty_ && std::max(a.distance, b.distance) < kHasty * far_) return;
     if (0.5 * (a.distance + b.distance + distance(a.point, b.point)) <= far_) return;
     const Known middle = known(0.5 * (a.point + b.point), a.facet);
     look(middle, plane);
@@ -74,12 +76,13 @@ class PointSearch {
   const Fidelity& fidelity_;
   double far_;
   const Visit& visit_;
+  bool hasty_;
 };
 
 template <class Visit>
 double search_points(const mesh::EditableMesh& mesh, const Fidelity& fidelity, Index t, double far,
-                     const Visit& visit) {
-  return PointSearch<Visit>(mesh, fidelity, far, visit).search(t);
+                     const Visit& visit, bool hasty = false) {
+  return PointSearch<Visit>(mesh, fidelity, far, visit, hasty).search(t);
 }
 
 // Largest distance of the points of triangle t, if beyond `far`; nearest(p, squared) gives the
@@ -117,28 +120,40 @@ std::vector<Index> all_triangles(const mesh::EditableMesh& mesh) {
 
 }  // namespace
 
-std::vector<FarWeight> far_weights(const mesh::EditableMesh& patch, Fidelity& fidelity,
+double& weight(Fidelity& f, std::size_t number) {
+  if (number < f.samples.size()) return f.samples[number].weight;
+  number -= f.samples.size();
+  if (number < f.vertex_planes.size()) return f.vertex_planes[number].emphasis;
+  number -= f.vertex_planes.size();
+  return f.edge_planes[number / 3][number % 3].emphasis;
+}
+
+std::vector<FarWeight> far_weights(const mesh::EditableMesh& patch, const Fidelity& fidelity,
                                    double far) {
   std::vector<FarWeight> found;
   const std::vector<Index> triangles = all_triangles(patch);
+  const std::size_t vertex_weights = fidelity.samples.size();
+  const std::size_t edge_weights = vertex_weights + fidelity.vertex_planes.size();
   for (Index t : triangles) {
     const TriangleFrame frame = frame_of(corners(patch, t));
     for (Index s = fidelity.first[t]; s >= 0; s = fidelity.samples[s].next) {
-      Sample& sample = fidelity.samples[s];
-      double squared = frame.closest(sample.point).squared_distance;
+      const Vec3& y = fidelity.samples[s].point;
+      double squared = frame.closest(y).squared_distance;
       if (squared <= far * far) continue;
-      squared = nearest_of(patch, triangles, sample.point, squared);
-      if (squared > far * far) found.push_back({std::sqrt(squared), &sample.weight});
+      squared = nearest_of(patch, triangles, y, squared);
+      if (squared > far * far) found.push_back({std::sqrt(squared), static_cast<std::size_t>(s)});
     }
-    search_points(patch, fidelity, t, far, [&](const Vec3& p, double own, int plane) {
+    const auto visit = [&](const Vec3& p, double own, int plane) {
       const double squared = fidelity.surface_bvh().closest(p, own * own).squared_distance;
+      const auto k = static_cast<std::size_t>(plane % 3);
       if (squared > far * far)
         found.push_back({std::sqrt(squared),
                          plane < 3
-                             ? &fidelity.edge_planes[t][plane].emphasis
-                             : &fidelity.vertex_planes[patch.triangle(t)[plane - 3]].emphasis});
+                             ? edge_weights + 3 * static_cast<std::size_t>(t) + k
+                             : vertex_weights + static_cast<std::size_t>(patch.triangle(t)[k])});
       return far;
-    });
+    };
+    search_points(patch, fidelity, t, far, visit, true);
   }
   return found;
 }

@@ -14,15 +14,23 @@ struct FarPoint {
   Index triangle;  ///< of the mesh
 };
 
+/// The weights of a fidelity by number: of the samples, the vertices' planes, the edges' planes.
+inline std::size_t weight_count(const Fidelity& f) {
+  return f.samples.size() + f.vertex_planes.size() + 3 * f.edge_planes.size();
+}
+double& weight(Fidelity& fidelity, std::size_t number);
+
 /// A weight of the fidelity, and how far what it pulls at is.
 struct FarWeight {
   double distance;
-  double* weight;
+  std::size_t weight;
 };
 
-/// All points of a patch farther than `far`: its samples from what is nearest of it, its vertices,
-/// points on edges and centroids from the surface.
-std::vector<FarWeight> far_weights(const mesh::EditableMesh& patch, Fidelity& fidelity, double far);
+/// The points of a patch farther than `far`: its samples from what is nearest of it, its vertices,
+/// points on edges and centroids from the surface. Edges are looked at less closely than by
+/// `largest_distance`.
+std::vector<FarWeight> far_weights(const mesh::EditableMesh& patch, const Fidelity& fidelity,
+                                   double far);
 
 /// The largest distance of these; `far` if there are none.
 double largest_distance(const mesh::EditableMesh& patch, const Fidelity& fidelity, double far);

@@ -78,7 +78,8 @@ Index Fidelity::emphasize_far_ridges(const mesh::EditableMesh& mesh, double far,
                                      double growth, const parallel::Workers& workers,
                                      const std::vector<Index>* triangles) {
   std::vector<Index> all;
-  if (!triangles) {
+  const bool few = triangles != nullptr;
+  if (!few) {
     for (Index t = 0; t < static_cast<Index>(first.size()); ++t) all.push_back(t);
     triangles = &all;
   }
@@ -116,8 +117,13 @@ Index Fidelity::emphasize_far_ridges(const mesh::EditableMesh& mesh, double far,
       };
       // Facets smaller than a sample's share may have none: their neighbours' count.
       add(sample.facet);
-      for (const Index g : surface().adjacent[sample.facet])
-        if (g >= 0) add(g);
+      for (const Index g : surface().adjacent[sample.facet]) {
+        if (g < 0) continue;
+        add(g);
+        if (!few) continue;
+        for (const Index f : surface().adjacent[g])
+          if (f >= 0) add(f);
+      }
     }
   std::vector<char> is_far(candidates.size());
   workers.for_each(candidates.size(), kChunk, [&](std::size_t i) {

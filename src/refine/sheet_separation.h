@@ -3,18 +3,10 @@
 #pragma once
 
 #include <functional>
-#include <utility>
-#include <vector>
 
 #include "refine/trials.h"
 
 namespace nonobtuse::refine {
-
-/// Pairs of triangles that properly cross each other, by index. In doubles: touching (also at
-/// copies of one knot) and overlap in a plane do not count.
-std::vector<std::pair<Index, Index>> crossing_triangles(const mesh::EditableMesh& mesh,
-                                                        const Knots& knots,
-                                                        const parallel::Workers& workers);
 
 /// Pushes crossing sheets apart, a little farther out every round, while that lowers the number of
 /// crossings and lets no more triangles leave `options.goal`. Returns the crossings left.

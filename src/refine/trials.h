@@ -11,6 +11,8 @@
 
 namespace nonobtuse::refine {
 
+class FoldTest;
+
 /// What trials may still cost, in relaxations of single vertices: a mesh that resists is given up
 /// after work in proportion to its size, however many places are left.
 class TrialBudget {
@@ -34,8 +36,8 @@ struct TrialOptions {
   /// Largest distances beyond this are compared (before the energy), and relaxation works against
   /// them; infinity: distances count by their energy alone.
   double far = std::numeric_limits<double>::infinity();
-  bool thorough = false;          ///< against large distances: more sequences get a long relaxation
-  TrialBudget* budget = nullptr;  ///< shared; none: whatever it takes
+  const FoldTest* folds = nullptr;  ///< if any, counts folds as it does and not by the feet alone
+  TrialBudget* budget = nullptr;    ///< shared; none: whatever it takes
 };
 
 PatchScore score(const Patch& patch, const TrialOptions& options);

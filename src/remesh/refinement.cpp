@@ -13,6 +13,7 @@
 #include "refine/distance_mending.h"
 #include "refine/fidelity.h"
 #include "refine/flips.h"
+#include "refine/fold_mending.h"
 #include "refine/global_descent.h"
 #include "refine/sheet_separation.h"
 #include "refine/valence_mending.h"
@@ -29,7 +30,7 @@ constexpr double kMostFidelity = 40;
 // Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
 constexpr double kMeanQuality = 0.9465;
 constexpr double kMeanQualityLarge = 0.9425;
-constexpr double kMeanQualitySized = 0.939;  // gradation costs shape
+constexpr double kMeanQualitySized = 0.932;  // gradation costs shape
 constexpr double kFarFactor = 5;  // vertices of M farther than this many rms distances are far
 constexpr double kFarWeight = 0.2;
 constexpr double kFarGrowth = 2;
@@ -92,10 +93,14 @@ class Refinement {
       outside = mend_and_sweep(local);
     if (local.budget) keep_promise();
     local.budget = nullptr;
-    refine::mend_distance(mesh_, fidelity_, local, workers_,
-                          [&](double f) { return tick(0.9 + 0.05 * f); });
-    refine::separate_sheets(mesh_, fidelity_, local, workers_,
-                            [&](double f) { return tick(0.95 + 0.05 * f); });
+    const Index crossings = refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                                                    [&](double f) { return tick(0.9 + 0.01 * f); });
+    refine::mend_folds(
+        mesh_, fidelity_, local, workers_, [&] { return tick(0.92); }, crossings > 0);
+    if (refine::mend_distance(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.93 + 0.05 * f); }) > 0)
+      refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.98 + 0.02 * f); });
     return outside == 0 ? 0 : outside_goal(goal);
   }
 

@@ -7,6 +7,7 @@
 
 #include "refine/fidelity.h"
 #include "refine/largest_distance.h"
+#include "refine/minimax_relaxation.h"
 #include "refine/relaxation.h"
 #include "refine/test_surfaces.h"
 
@@ -128,6 +129,31 @@ TEST(MendDistance, LowersTheLargestDistanceAndKeepsTheRest) {
     EXPECT_EQ(s.made.mesh.vertex_count(), count);
     EXPECT_EQ(test::euler_characteristic(s.made.mesh), 0);
     EXPECT_EQ(test::bad_valence_count(s.made.mesh), 0);
+  }
+}
+
+TEST(MinimaxRelaxation, LowersTheLargestDistance) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Scene s(test::torus(80, 32), test::torus(40, 16, 0.2, seed));
+    refine::TrialOptions options;
+    options.goal = {30, 89};
+    options.shape = energy::hinged(100, 31, 88);
+    options.far = 0.01;
+    const Vec3 out = normalized(refine::vertex_area_vector(s.made.mesh, 100));
+    s.made.mesh.positions[100] += 0.4 * out;
+    s.renew();
+    const std::array<Index, 1> center{100};
+    const refine::Patch patch(s.made.mesh, s.fidelity, center, 3);
+    const double before = refine::largest_distance(patch.mesh, patch.fidelity, options.far);
+    refine::MinimaxRelaxation relaxation(patch, options, before);
+    EXPECT_FALSE(relaxation.best);
+    relaxation.run(10);
+    ASSERT_TRUE(relaxation.best);
+    EXPECT_GT(relaxation.effort(), 0);
+    EXPECT_LT(relaxation.least_distance(), 0.5 * before);
+    EXPECT_LE(refine::largest_distance(relaxation.best->mesh, relaxation.best->fidelity, 0.01),
+              0.5 * before);
+    EXPECT_EQ(relaxation.best_score.outside_goal, 0);
   }
 }
 

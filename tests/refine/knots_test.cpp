@@ -7,11 +7,11 @@
 #include <cstring>
 #include <map>
 
+#include "refine/crossing_triangles.h"
 #include "refine/cut_surfaces.h"
 #include "refine/fidelity.h"
 #include "refine/global_descent.h"
 #include "refine/relaxation.h"
-#include "refine/sheet_separation.h"
 #include "remesh/refinement.h"
 #include "remesh/valence_optimization.h"
 
