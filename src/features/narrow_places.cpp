@@ -238,6 +238,26 @@ std::vector<double> total_turns(const mesh::Surface& surface, const EdgeFlags& f
   return turn;
 }
 
+// #curves: the least vertex of all curves that a curve is connected with, not counting curves
+// shorter than `shortest`.
+std::vector<Index> networks(const mesh::Surface& surface, const FeatureGraph& graph,
+                            double shortest) {
+  std::vector<Index> label(surface.vertices.size());
+  std::iota(label.begin(), label.end(), 0);
+  const auto root = [&](Index v) {
+    while (label[v] != v) v = label[v] = label[label[v]];
+    return v;
+  };
+  for (const FeatureCurve& curve : graph.curves) {
+    if (curve_lengths(surface, curve).arc.back() < shortest) continue;
+    const Index a = root(curve.vertices.front()), b = root(curve.vertices.back());
+    label[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<Index> result;
+  for (const FeatureCurve& curve : graph.curves) result.push_back(root(curve.vertices.front()));
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
@@ -258,6 +278,7 @@ std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags&
 
 bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph, double width,
                         EdgeFlags& flags) {
+  if (graph.curves.empty()) return false;
   CurveOfEdge curve_of;
   for (std::size_t c = 0; c < graph.curves.size(); ++c)
     for_each_link(graph.curves[c], [&](Index a, Index b) {
@@ -271,7 +292,11 @@ bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph,
   });
   std::vector<Index> order(graph.curves.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return turn[a] < turn[b]; });
+  // Of equals, as the two rims of a plate, whole networks yield, so that they do not take turns.
+  const std::vector<Index> network = networks(surface, graph, 2 * width);
+  const double unit = std::max(1e-300, 1e-6 * *std::max_element(turn.begin(), turn.end()));
+  const auto key = [&](Index c) { return std::pair(std::round(turn[c] / unit), network[c]); };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
   std::vector<Index> rank(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<Index>(i);
   CurveOfEdge given_up;

@@ -127,6 +127,8 @@ class Refinement {
       refine::separate_sheets(mesh_, fidelity_, local, workers_,
                               [&](double f) { return tick(0.98 + 0.02 * f); });
     if (!before || outside_promise() <= broken) return;
+    keep_promise();
+    if (outside_promise() <= broken) return;
     mesh_ = std::move(before->first);
     fidelity_ = std::move(before->second);
   }
