@@ -20,8 +20,9 @@ namespace {
 
 constexpr int kSequences = 24;            // of flips
 constexpr int kPairSequences = 6;         // per vertex
+constexpr int kFirstOfTwo = 2;            // per vertex, where two vertices more or less are tried
 constexpr int kAttempts = 12;             // places
-constexpr std::int64_t kWork = 150000;    // budget of all trials
+constexpr std::int64_t kWork = 40000;     // budget of all trials
 constexpr std::size_t kManyOutside = 50;  // triangles outside the goal that are not swept again
 constexpr double kSuspicious = 0.5;  // cosine between a triangle's normal and what is around it
 
@@ -98,7 +99,8 @@ class FoldMender {
   bool mend(const std::vector<Index>& fold) {
     for (const int rings : {2, 3})
       if (by_pair(fold, rings, -1) || by_flips(fold, rings) || by_pair(fold, rings, 1)) return true;
-    return false;
+    // A limb that bends sharply may want two.
+    return by_pair(fold, 3, 2) || by_pair(fold, 3, -2);
   }
 
  private:
@@ -114,10 +116,31 @@ class FoldMender {
   bool by_pair(const std::vector<Index>& fold, int rings, int net) {
     const Patch patch(mesh_, fidelity_, fold, rings);
     std::vector<std::vector<Edit>> sequences;
+    const int step = net < 0 ? -1 : 1;
+    const bool twice = net != step;
     for (const Index v : fold)
-      for (auto& edits : search_balancing_edits(patch, patch.local(v), net, kPairSequences))
-        sequences.push_back(std::move(edits));
+      for (auto& edits : search_balancing_edits(patch, patch.local(v), step,
+                                                twice ? kFirstOfTwo : kPairSequences)) {
+        if (twice)
+          add_second(patch, edits, fold, step, sequences);
+        else
+          sequences.push_back(std::move(edits));
+      }
     return commit_if_better(patch, sequences, net);
+  }
+
+  // Sequences that go on after `first` with one vertex more or less at what is left of the fold.
+  static void add_second(const Patch& patch, const std::vector<Edit>& first,
+                         const std::vector<Index>& fold, int net,
+                         std::vector<std::vector<Edit>>& sequences) {
+    Patch edited = patch;
+    for (const Edit& edit : first) edited.apply(edit);
+    for (const Index v : fold) {
+      const Index u = patch.local(v);
+      if (!edited.mesh.alive_vertex(u)) continue;
+      for (auto& edits : search_balancing_edits(edited, u, net, kFirstOfTwo))
+        sequences.push_back(std::move(edits));
+    }
   }
 
   // Triangles of the patch with all corners in the fold.
@@ -153,7 +176,13 @@ class FoldMender {
     TrialOptions elsewhere = options_;
     elsewhere.promise = elsewhere.goal;
     elsewhere.budget = nullptr;
-    if (net == 0 || balance_count(mesh_, fidelity_, -net, elsewhere, workers_)) {
+    int unbalanced = net;
+    while (unbalanced != 0) {
+      const int back = unbalanced < 0 ? 1 : -1;
+      if (!balance_count(mesh_, fidelity_, back, elsewhere, workers_)) break;
+      unbalanced += back;
+    }
+    if (unbalanced == 0) {
       if (outside_before < kManyOutside)
         sweep_angles(
             mesh_, fidelity_, options_.goal, options_.on_surface, workers_,

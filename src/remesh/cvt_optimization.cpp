@@ -197,6 +197,18 @@ void insert_midpoints(const mesh::Surface& surface, const Components& components
   sort_along_curve(sites);
 }
 
+bool is_started(const CvtOptions& options, const std::vector<Index>& quota) {
+  return quota.size() == 1 && static_cast<Index>(options.start.size()) == quota[0];
+}
+
+Sites first_sites(const mesh::Surface& surface, const Components& components,
+                  const std::vector<Index>& quota, const CvtOptions& options) {
+  if (is_started(options, quota))
+    return {options.start, std::vector<Index>(options.start.size(), 0)};
+  SampledSites samples = sample_strata(surface, components, quota, options.seed);
+  return {std::move(samples.points), std::move(samples.component)};
+}
+
 // Ever more rarely, since the exact diagram takes several times as long as an evaluation.
 bool is_recorded(int iteration) {
   return iteration <= 20 || (iteration <= 100 && iteration % 5 == 0) || iteration % 50 == 0;
@@ -226,23 +238,24 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
   const double total = options.iterations + options.coarse_iterations * (levels - 1);
   double done = 0;
 
-  SampledSites samples = sample_strata(surface, components, quotas.back(), options.seed);
-  Sites sites{std::move(samples.points), std::move(samples.component)};
+  Sites sites = first_sites(surface, components, quotas.back(), options);
   for (std::size_t level = quotas.size(); level-- > 0;) {
     rvd::CellEvaluator evaluator(surface, static_cast<Index>(sites.points.size()), workers);
     const int evaluations = level == 0 ? options.iterations : options.coarse_iterations;
-    if (!monitor.cancelled()) {
+    const bool made_before = level + 1 == quotas.size() && is_started(options, quotas.back());
+    if (!monitor.cancelled() && !made_before) {
       int made = 1;
       const double energy =
           minimize_cvt(evaluator, sites.points, evaluations,
                        level == 0 ? options.tolerance : options.coarse_tolerance, workers,
                        [&](const DescentState& state) {
                          made = state.evaluations + 1;
-                         if (level == 0 && is_recorded(state.evaluations - 1))
+                         if (options.recorded && level == 0 && is_recorded(state.evaluations - 1))
                            record(surface, state, workers, monitor);
                          return monitor.tick((done + state.evaluations) / std::max(total, 1.0));
                        });
-      if (level == 0) record(surface, {made, energy, sites.points}, workers, monitor);
+      if (options.recorded && level == 0)
+        record(surface, {made, energy, sites.points}, workers, monitor);
     }
     done += evaluations;
     if (level == 0) break;

@@ -29,6 +29,10 @@ struct CvtOptions {
   /// How often the sites are first quartered; 0 starts from random samples at full size. Parts
   /// with fewer than 64 sites are never quartered.
   int coarse_levels = 1;
+  /// For a surface of one component the sites of the coarsest level, optimised already, if that is
+  /// as many as are wanted there; else they are sampled.
+  std::vector<Vec3> start{};
+  bool recorded = true;  ///< whether the iterations with all sites go into the history
 };
 
 /// Sites (#X by 3) on or near the surface that minimise the CVT energy, along a space-filling

@@ -26,6 +26,8 @@ namespace {
 
 constexpr Index kSamplesPerVertex = 8;
 constexpr int kStepsBetweenFlips = 5;
+constexpr int kStepsToSettle = 14;
+constexpr int kStepsIfSettled = 10;
 constexpr double kFidelity = 20;  // weight at the start
 constexpr double kLeastFidelity = 6;
 constexpr double kMostFidelity = 40;
@@ -69,7 +71,8 @@ class Refinement {
   Index run() {
     const double lo = options_.min_angle, hi = options_.max_angle;
     // First wide open, so that shape and fidelity find their balance; then two degrees inside.
-    descend(14, energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
+    descend(options_.settled ? kStepsIfSettled : kStepsToSettle,
+            energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
     const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
     // Beside creases the connectivity is less free, and vertices would rather leave the surface.
     if (!fidelity_.knots.empty()) fidelity_.leash = kLeash;

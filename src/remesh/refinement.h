@@ -15,6 +15,7 @@ struct RefinementOptions {
   double min_angle = 40;  ///< degrees, bounds to reach; [46, 74] is possible on smooth surfaces
   double max_angle = 80;
   bool on_surface = false;  ///< keep vertices on the surface
+  bool settled = false;     ///< the mesh rests in its own shape energy already: fewer first steps
 };
 
 /// Moves vertices, flips edges and, where nothing else helps, collapses one edge and splits

@@ -18,6 +18,7 @@
 #include "remesh/error_bound.h"
 #include "remesh/extraction.h"
 #include "remesh/featured_part.h"
+#include "remesh/first_mesh.h"
 #include "remesh/normalization.h"
 #include "remesh/paper_method.h"
 #include "remesh/parts.h"
@@ -31,15 +32,11 @@ namespace nonobtuse {
 
 namespace {
 
-// From a connected surface to its first mesh with n vertices: sites, their optimisation,
-// extraction.
-mesh::EditableMesh sites_and_mesh(const mesh::Surface& surface, Index n,
-                                  const RemeshOptions& options, const parallel::Workers& workers,
-                                  pipeline::StageClock& clock) {
+// The paper's own stages after plain CVT.
+std::vector<Vec3> paper_stages(const mesh::Surface& surface, std::vector<Vec3> sites,
+                               const RemeshOptions& options, const parallel::Workers& workers,
+                               pipeline::StageClock& clock) {
   parallel::Monitor& monitor = clock.monitor();
-  std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
-    return pipeline::optimize_cvt(surface, pipeline::cvt_options(options, n), workers, monitor);
-  });
   const bool feature_sensitive =
       (options.method == Method::CvtFs || options.method == Method::CvtNob) &&
       options.normal_weight > 1;
@@ -59,10 +56,34 @@ mesh::EditableMesh sites_and_mesh(const mesh::Surface& surface, Index n,
           {.normal_weight = options.normal_weight, .short_dual = penalty}, iterations, workers,
           monitor);
     });
-  return clock
-      .run("extraction", 0.4, 0.5,
-           [&] { return pipeline::extract(surface, std::move(sites), workers, monitor); })
-      .mesh;
+  return sites;
+}
+
+struct StartingMesh {
+  mesh::EditableMesh mesh;
+  bool settled = false;  // in its own shape energy
+};
+
+// From a connected surface to its first mesh with n vertices: coarse to fine on meshes; or sites,
+// their optimisation, extraction.
+StartingMesh starting_mesh(const mesh::Surface& surface, Index n, const RemeshOptions& options,
+                           const parallel::Workers& workers, pipeline::StageClock& clock) {
+  parallel::Monitor& monitor = clock.monitor();
+  pipeline::FirstMesh first;
+  std::vector<Vec3> sites = clock.run("cvt", 0, 0.4, [&] {
+    pipeline::CvtOptions cvt = pipeline::cvt_options(options, n);
+    if (options.method == Method::Default)
+      first = pipeline::first_mesh(surface, cvt, workers, monitor);
+    if (first.tessellation.mesh.vertex_count() > 0) return std::vector<Vec3>{};
+    cvt.start = std::move(first.coarse_sites);
+    return pipeline::optimize_cvt(surface, cvt, workers, monitor);
+  });
+  if (sites.empty()) return {std::move(first.tessellation.mesh), true};
+  sites = paper_stages(surface, std::move(sites), options, workers, clock);
+  pipeline::Extraction extraction = clock.run("extraction", 0.4, 0.5, [&] {
+    return pipeline::extract(surface, std::move(sites), workers, monitor);
+  });
+  return {std::move(extraction.mesh), false};
 }
 
 // The pipeline on one connected surface, with n vertices. `bvh` becomes the surface's.
@@ -70,18 +91,20 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, spatial::TriangleBv
                                const RemeshOptions& options, const parallel::Workers& workers,
                                pipeline::StageClock& clock) {
   parallel::Monitor& monitor = clock.monitor();
-  mesh::EditableMesh mesh = sites_and_mesh(surface, n, options, workers, clock);
+  StartingMesh start = starting_mesh(surface, n, options, workers, clock);
+  mesh::EditableMesh& mesh = start.mesh;
   // Not earlier: the tessellation takes most of the memory.
   bvh = spatial::TriangleBvh(surface.vertices, surface.triangles, workers);
   // After a cancellation what there is goes out at once.
-  if (options.method != Method::Default || monitor.cancelled()) return mesh;
+  if (options.method != Method::Default || monitor.cancelled()) return std::move(mesh);
   clock.run("valence", 0.5, 0.55,
             [&] { return pipeline::optimize_valence(surface, bvh, mesh, workers, monitor); });
   clock.run("refinement", 0.55, 1, [&] {
-    return pipeline::refine(surface, bvh, mesh, pipeline::refinement_options(options), workers,
-                            monitor);
+    pipeline::RefinementOptions refinement = pipeline::refinement_options(options);
+    refinement.settled = start.settled;
+    return pipeline::refine(surface, bvh, mesh, refinement, workers, monitor);
   });
-  return mesh;
+  return std::move(mesh);
 }
 
 // How the vertices of a part go on its creases and boundaries; nothing if it has none.
@@ -169,7 +192,7 @@ void find_least_vertices(std::vector<pipeline::Part>& parts, const RemeshOptions
           break;
         pipeline::NormalizedInput input = pipeline::normalize(part.mesh, part.least);
         pipeline::set_sizes(part.length, input);
-        sites_and_mesh(input.surface, part.least, options, workers, clock);
+        starting_mesh(input.surface, part.least, options, workers, clock);
         enough = true;
       } catch (const TooFewVertices& too_few) {
         part.least = std::max(too_few.least(), part.least + 1);

@@ -6,6 +6,7 @@
 #include "nonobtuse/remesh.h"
 #include "nonobtuse/sample.h"
 #include "remesh/cvt_optimization.h"
+#include "remesh/first_mesh.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/normalization.h"
 #include "rvd/cell_integrals.h"
@@ -26,6 +27,21 @@ TEST(Work, EvaluationsOfTheCvtEnergyAreFew) {
   parallel::Monitor monitor(context);
   optimize_cvt(surface, {.sites = kSites}, parallel::Workers(1), monitor);
   EXPECT_LE(ticks, 54) << "counted when the bound was set: 45";
+}
+
+// On a surface that a quarter of the vertices resolves, no evaluation takes place with all sites.
+TEST(Work, TheFirstMeshTakesFewSteps) {
+  const mesh::Surface surface = normalize(sample_surface(32), kSites).surface;
+  int ticks = 0;  // evaluations of the coarse cells, blocks of steps on the meshes
+  Context context;
+  context.progress = [&](const Progress&) {
+    ++ticks;
+    return true;
+  };
+  parallel::Monitor monitor(context);
+  const FirstMesh first = first_mesh(surface, {.sites = kSites}, parallel::Workers(1), monitor);
+  EXPECT_EQ(first.tessellation.mesh.vertex_count(), kSites);
+  EXPECT_LE(ticks, 56) << "counted when the bound was set: 47";
 }
 
 TEST(Work, CandidateListsAreReused) {
