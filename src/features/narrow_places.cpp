@@ -20,6 +20,7 @@ namespace nonobtuse::features {
 namespace {
 
 constexpr double kOfWidth = 0.7;
+constexpr double kOfRing = 1;     // between closed curves a strip needs no row of inner vertices
 constexpr double kWedge = 4;      // paths along curves shorter than this many distances: a corner
 constexpr double kInwards = 0.3;  // cosine: how squarely the other curve is faced
 constexpr double kClosedSegments = 6;
@@ -51,9 +52,11 @@ class WidthFinder {
     find_sides(flags);
   }
 
-  void bound(std::vector<double>& bounds) {
-    for_each_place([&](Index v, const Side&, double width) {
-      bounds[v] = std::min(bounds[v], kOfWidth * width);
+  // `closed` (#V): on closed curves that need not be told apart by inner vertices.
+  void bound(const std::vector<char>& closed, std::vector<double>& bounds) {
+    for_each_place([&](Index v, const Side& side, double width) {
+      const bool ring = closed[v] != 0 && closed[ends(side).first] != 0;
+      bounds[v] = std::min(bounds[v], (ring ? kOfRing : kOfWidth) * width);
     });
   }
 
@@ -235,10 +238,30 @@ std::vector<double> total_turns(const mesh::Surface& surface, const EdgeFlags& f
   return turn;
 }
 
+// #curves: the least vertex of all curves that a curve is connected with, not counting curves
+// shorter than `shortest`.
+std::vector<Index> networks(const mesh::Surface& surface, const FeatureGraph& graph,
+                            double shortest) {
+  std::vector<Index> label(surface.vertices.size());
+  std::iota(label.begin(), label.end(), 0);
+  const auto root = [&](Index v) {
+    while (label[v] != v) v = label[v] = label[label[v]];
+    return v;
+  };
+  for (const FeatureCurve& curve : graph.curves) {
+    if (curve_lengths(surface, curve).arc.back() < shortest) continue;
+    const Index a = root(curve.vertices.front()), b = root(curve.vertices.back());
+    label[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<Index> result;
+  for (const FeatureCurve& curve : graph.curves) result.push_back(root(curve.vertices.front()));
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
-                                  const FeatureGraph& graph, double h) {
+                                  const FeatureGraph& graph, double h, bool frugal) {
   std::vector<double> bounds(surface.vertices.size(), kInfinite);
   for (const FeatureCurve& curve : graph.curves) {
     const double length = curve_lengths(surface, curve).arc.back();
@@ -246,12 +269,16 @@ std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags&
     if (!(bound < h)) continue;
     for (const Index v : curve.vertices) bounds[v] = std::min(bounds[v], bound);
   }
-  WidthFinder(surface, flags, h / kOfWidth).bound(bounds);
+  std::vector<char> closed(surface.vertices.size(), 0);
+  for (const FeatureCurve& curve : graph.curves)
+    for (const Index v : curve.vertices) closed[v] = frugal && curve.closed ? 1 : 0;
+  WidthFinder(surface, flags, h / kOfWidth).bound(closed, bounds);
   return bounds;
 }
 
 bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph, double width,
                         EdgeFlags& flags) {
+  if (graph.curves.empty()) return false;
   CurveOfEdge curve_of;
   for (std::size_t c = 0; c < graph.curves.size(); ++c)
     for_each_link(graph.curves[c], [&](Index a, Index b) {
@@ -265,7 +292,11 @@ bool merge_close_curves(const mesh::Surface& surface, const FeatureGraph& graph,
   });
   std::vector<Index> order(graph.curves.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return turn[a] < turn[b]; });
+  // Of equals, as the two rims of a plate, whole networks yield, so that they do not take turns.
+  const std::vector<Index> network = networks(surface, graph, 2 * width);
+  const double unit = std::max(1e-300, 1e-6 * *std::max_element(turn.begin(), turn.end()));
+  const auto key = [&](Index c) { return std::pair(std::round(turn[c] / unit), network[c]); };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
   std::vector<Index> rank(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<Index>(i);
   CurveOfEdge given_up;

@@ -13,11 +13,12 @@ namespace nonobtuse::features {
 
 /// #V: the longest target edge length (working units) that the features allow at a vertex, infinite
 /// where they do not matter at edge lengths of `h`. 0.7 w on both sides of a patch that is w wide
-/// there (of pairs of points, along straight lines into the patch; not of two curves that part
-/// from each other in a corner), and what gives short curves one segment, closed ones six. Only
-/// vertices on features get a bound; they should be less than h / 2 apart.
+/// there; if `frugal`, w between two closed curves, where a strip can do without inner vertices (of
+/// pairs of points, along straight lines into the patch; not of two curves that part from each
+/// other in a corner), and what gives short curves one segment, closed ones six. Only vertices on
+/// features get a bound; they should be less than h / 2 apart.
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
-                                  const FeatureGraph& graph, double h);
+                                  const FeatureGraph& graph, double h, bool frugal = false);
 
 /// Makes one of features nearer to each other than `width` (working units): takes the flags off
 /// parts of curves that face others across a narrower strip, and off the whole curve if they are

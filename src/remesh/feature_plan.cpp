@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "features/crease_detection.h"
@@ -31,6 +32,7 @@ constexpr int kSizeSteps = 8;
 // Creases that would make all other edges longer than this many times are given up, the nearest to
 // each other first.
 constexpr double kMostGrowth = 1.5;
+constexpr double kWorthwhile = 0.9;                  // part of the growth that is left
 constexpr double kCloseCreases[] = {0.1, 0.2, 0.4};  // of an edge length
 
 // The input cut open, without knots: what the patches are.
@@ -113,21 +115,50 @@ class Planner {
   FeaturePlan run() {
     if (options_.features == Features::Auto)
       features::flag_coarse_creases(plan_.surface, kFlatWidth * kEdgeLength, plan_.flags);
-    if (!find_curves()) return std::move(plan_);
+    Start best{plan_.surface, plan_.flags};
+    double growth = attempt(best);
     const double found = crease_length();
+    if (growth <= kMostGrowth) return std::move(plan_);
+    frugal_ = true;
+    growth = attempt(best);
+    bool last = true;  // whether the plan is that of `best`
     // Creases too near each other would take the vertices from everything else.
     for (const double close : kCloseCreases) {
-      if (settles() || !may_give_up()) return std::move(plan_);
-      give_up_close_creases(close * kEdgeLength);
-      const bool left = find_curves();
-      plan_.given_up = std::max(0.0, found - crease_length()) / plan_.input.map.scale;
-      if (!left) return std::move(plan_);
+      if (growth <= kMostGrowth || !may_give_up()) break;
+      std::optional<Start> merged = merge_close_creases(best, close * kEdgeLength);
+      if (!merged) continue;
+      const double with = attempt(*merged);
+      last = with <= growth;
+      if (last) growth = with, best = std::move(*merged);
     }
-    settle();
+    if (!last || !std::isfinite(growth)) start(best), settle();
+    plan_.given_up = std::max(0.0, found - crease_length()) / plan_.input.map.scale;
     return std::move(plan_);
   }
 
  private:
+  // What a plan is made from.
+  struct Start {
+    mesh::Surface surface;
+    features::EdgeFlags flags;
+  };
+
+  bool start(const Start& from) {
+    plan_.surface = from.surface;
+    plan_.flags = from.flags;
+    return find_curves();
+  }
+
+  // By how much edges grow where there are no features: infinite if there are too few vertices.
+  double attempt(const Start& from) {
+    if (!start(from)) return 0;
+    try {
+      return settle();
+    } catch (const TooFewVertices&) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+
   // Curves and corners of the flags; false if there are none.
   bool find_curves() {
     features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
@@ -168,26 +199,14 @@ class Planner {
     return options_.features == Features::Auto && options_.feature_edges.empty();
   }
 
-  // Whether the vertices do without making edges much longer where there are no features.
-  bool settles() {
-    start_ = {plan_.surface, plan_.flags, plan_.graph.corner};
-    try {
-      return settle() <= kMostGrowth;
-    } catch (const TooFewVertices&) {
-      if (!may_give_up()) throw;
-      return false;
-    }
-  }
-
-  // From what was there before the sizes were found. Of creases nearer to each other than `width`
-  // the blunter go.
-  void give_up_close_creases(double width) {
+  // Of creases nearer to each other than `width` the blunter go; nothing if there are none.
+  [[nodiscard]] std::optional<Start> merge_close_creases(const Start& from, double width) {
+    start(from);
     features::ResolvedSurface fine = features::resolve_surface(
-        start_.surface, start_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
-    const features::FeatureGraph graph = this->graph(fine.surface, fine.flags, start_.corner);
-    features::merge_close_curves(fine.surface, graph, width, fine.flags);
-    plan_.surface = std::move(fine.surface);
-    plan_.flags = std::move(fine.flags);
+        plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
+    const features::FeatureGraph graph = this->graph(fine.surface, fine.flags, plan_.graph.corner);
+    if (!features::merge_close_curves(fine.surface, graph, width, fine.flags)) return {};
+    return Start{std::move(fine.surface), std::move(fine.flags)};
   }
 
   // With the points in which patches touch among its corners.
@@ -226,7 +245,7 @@ class Planner {
         plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
     features::FeatureGraph graph = this->graph(fine.surface, fine.flags, plan_.graph.corner);
     const std::vector<double> bounds =
-        features::narrow_places(fine.surface, fine.flags, graph, largest * kEdgeLength);
+        features::narrow_places(fine.surface, fine.flags, graph, largest * kEdgeLength, frugal_);
     const std::vector<double> asked = fine.surface.size;
     const auto local = [&](std::size_t v) { return asked.empty() ? 1.0 : asked[v]; };
     const std::vector<double> given = frozen_lengths(fine.surface);
@@ -295,11 +314,7 @@ class Planner {
   const RemeshOptions& options_;
   const std::vector<Index>& points_;
   FeaturePlan plan_;
-  struct {
-    mesh::Surface surface;
-    features::EdgeFlags flags;
-    std::vector<char> corner;
-  } start_;  // before sizes were found
+  bool frugal_ = false;
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "refine/angle_goal.h"
 #include "refine/angle_sweeps.h"
@@ -94,15 +96,9 @@ class Refinement {
     // Beside creases a second attempt finds a mesh in better order.
     for (int attempt = 0; attempt < 2 && outside > 0 && !fidelity_.knots.empty(); ++attempt)
       outside = mend_and_sweep(local);
+    if (local.budget) keep_promise();
     local.budget = nullptr;
-    const Index crossings = refine::separate_sheets(mesh_, fidelity_, local, workers_,
-                                                    [&](double f) { return tick(0.9 + 0.01 * f); });
-    refine::mend_folds(
-        mesh_, fidelity_, local, workers_, [&] { return tick(0.92); }, crossings > 0);
-    if (refine::mend_distance(mesh_, fidelity_, local, workers_,
-                              [&](double f) { return tick(0.93 + 0.05 * f); }) > 0)
-      refine::separate_sheets(mesh_, fidelity_, local, workers_,
-                              [&](double f) { return tick(0.98 + 0.02 * f); });
+    lower_distances(local);
     return outside == 0 ? 0 : outside_goal(goal);
   }
 
@@ -117,6 +113,42 @@ class Refinement {
     return refine::sweep_angles(
         mesh_, fidelity_, local.goal, options_.on_surface, workers_,
         [&](double f) { return tick(0.75 + 0.15 * f); }, local.budget);
+  }
+
+  // Sheets apart, folds undone, largest distances lowered; beside creases not at the cost of the
+  // promise, which these steps do not tell from the goal.
+  void lower_distances(const refine::TrialOptions& local) {
+    const std::size_t broken = outside_promise();
+    std::optional<std::pair<mesh::EditableMesh, refine::Fidelity>> before;
+    if (!fidelity_.knots.empty()) before.emplace(mesh_, fidelity_);
+    const Index crossings = refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                                                    [&](double f) { return tick(0.9 + 0.01 * f); });
+    refine::mend_folds(
+        mesh_, fidelity_, local, workers_, [&] { return tick(0.92); }, crossings > 0);
+    if (refine::mend_distance(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.93 + 0.05 * f); }) > 0)
+      refine::separate_sheets(mesh_, fidelity_, local, workers_,
+                              [&](double f) { return tick(0.98 + 0.02 * f); });
+    if (!before || outside_promise() <= broken) return;
+    keep_promise();
+    if (outside_promise() <= broken) return;
+    mesh_ = std::move(before->first);
+    fidelity_ = std::move(before->second);
+  }
+
+  [[nodiscard]] std::size_t outside_promise() const {
+    return refine::triangles_outside(mesh_, refine::AngleTest(refine::kPromise)).size();
+  }
+
+  // Where not even the promise is kept, bounds so far inside only stand in the way.
+  void keep_promise() {
+    if (outside_promise() == 0) return;
+    const refine::AngleGoal least{std::min(options_.min_angle, refine::kPromise.smallest + 1),
+                                  std::max(options_.max_angle, refine::kPromise.largest - 1)};
+    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 * mesh_.vertex_count());
+    refine::sweep_angles(
+        mesh_, fidelity_, least, options_.on_surface, workers_,
+        [&](double f) { return tick(0.85 + 0.05 * f); }, &budget);
   }
 
   bool tick(double fraction) {

@@ -210,7 +210,53 @@ TEST(NarrowPlaces, AStripIsAsWideAsItIs) {
   for (const double b : narrow_places(fine.surface, fine.flags, graph, 0.5)) EXPECT_GT(b, 0.5);
 }
 
+// A square plate 8 wide with right-angled rims.
+TriangleMesh plate(double thickness) {
+  TriangleMesh m = shapes::box(8, 8, 1);
+  for (Vec3& v : m.vertices) v.z *= thickness;
+  return m;
+}
+
+TEST(NarrowPlaces, CreasesNearerThanTheWidthBecomeOne) {
+  const mesh::Surface s = surface_of(plate(0.1));
+  EdgeFlags flags = creases_of(s);
+  const FeatureGraph graph = feature_graph(s, flags, {});
+  ASSERT_EQ(graph.curves.size(), 12u);
+  // Nothing is nearer than the plate is thick.
+  const EdgeFlags before = flags;
+  EXPECT_FALSE(merge_close_curves(s, graph, 0.09, flags));
+  EXPECT_EQ(flags, before);
+  // One of the two rims goes, with stubs of one side at its corners.
+  EXPECT_TRUE(merge_close_curves(s, graph, 0.2, flags));
+  double low = 0, high = 0;
+  for (Index f = 0; f < static_cast<Index>(flags.size()); ++f)
+    for (int k = 0; k < 3; ++k) {
+      if (!flagged(flags, f, k)) continue;
+      const Vec3& a = s.vertices[s.triangles[f][mesh::next(k)]];
+      const Vec3& b = s.vertices[s.triangles[f][mesh::previous(k)]];
+      if (a.z == b.z) (a.z == 0 ? low : high) += distance(a, b) / 2;
+    }
+  EXPECT_NEAR(std::max(low, high), 4 * 8, 1e-9);
+  EXPECT_LE(std::min(low, high), 8);
+}
+
 // ---- the whole call ----
+
+// Far thinner than an edge is long: the rims cannot both be kept with good angles.
+TEST(FeatureRemesh, ThinPlatesKeepTheirTopologyAndThePromise) {
+  for (const double part : {1e-1, 1e-2, 1e-4}) {
+    SCOPED_TRACE(part);
+    const Index n = 300;
+    const double h = std::sqrt(2 / std::sqrt(3.0) * 2 * 64 / n);
+    const RemeshResult result = remesh(plate(part * h), {.vertices = n});
+    EXPECT_EQ(result.mesh.vertices.size(), static_cast<std::size_t>(n));
+    const Topology topology = measure_topology(result.mesh);
+    EXPECT_EQ(topology.euler_characteristic, 2);
+    EXPECT_EQ(topology.boundary_loops, 0);
+    EXPECT_EQ(topology.nonmanifold_edges, 0);
+    EXPECT_TRUE(certify(result.mesh, {30, 90}).certified);
+  }
+}
 
 std::set<std::array<Index, 2>> edges_of(const TriangleMesh& m) {
   std::set<std::array<Index, 2>> edges;
