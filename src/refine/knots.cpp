@@ -148,13 +148,15 @@ void Knots::remove(Index knot) {
 bool Knots::edge_allowed(const mesh::EditableMesh& mesh, Index a, Index b) const {
   if (empty()) return true;
   const Index ka = mesh.knot[a], kb = mesh.knot[b];
-  if (ka < 0 || kb < 0) return true;
+  if (ka < 0 && kb < 0) return true;
   if (ka == kb) return false;
+  if (ka < 0) return edge_allowed(mesh, b, a);
+  const auto is_b = [&](Index u) { return kb < 0 ? u == b : mesh.knot[u] == kb; };
   bool allowed = true;
   for (const Index copy : all[ka].copies)
     for_ring(mesh, copy, [&](Index t, int) {
-      for (const Index u : mesh.triangle(t))
-        if (mesh.knot[u] == kb) allowed = false;
+      const Triangle& corners = mesh.triangle(t);
+      if (std::any_of(corners.begin(), corners.end(), is_b)) allowed = false;
     });
   return allowed;
 }
@@ -162,7 +164,6 @@ bool Knots::edge_allowed(const mesh::EditableMesh& mesh, Index a, Index b) const
 bool Knots::collapse_allowed(const mesh::EditableMesh& mesh, Index removed, Index b) const {
   if (empty()) return true;
   if (mesh.knot[removed] >= 0) return false;
-  if (mesh.knot[b] < 0) return true;
   bool allowed = true;
   for_ring(mesh, removed, [&](Index t, int k) {
     const Index u = mesh.triangle(t)[mesh::next(k)];

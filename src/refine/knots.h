@@ -66,7 +66,8 @@ class Knots {
   void remove(Index knot);
 
   /// Whether an edge between a and b may come into being: not between two copies of one knot, nor
-  /// where other copies of their knots are joined already, since the edges would become one.
+  /// where they or other copies of their knots are joined already, since the edges would become
+  /// one.
   [[nodiscard]] bool edge_allowed(const mesh::EditableMesh& mesh, Index a, Index b) const;
   /// Whether a free vertex may disappear into b: none of its neighbours meets b a second time.
   [[nodiscard]] bool collapse_allowed(const mesh::EditableMesh& mesh, Index removed, Index b) const;

@@ -28,6 +28,7 @@ constexpr double kFlatWidth = 1.8;       // of an edge length: of the sides of a
 constexpr double kFeatureEdge = 0.45;    // of an edge length: longest piece of a feature edge while
                                          // widths are measured
 constexpr double kLeastSize = 0.05;      // of an edge length
+constexpr double kRounding = 1e-9;
 constexpr int kSizeSteps = 8;
 // Creases that would make all other edges longer than this many times are given up, the nearest to
 // each other first.
@@ -132,7 +133,8 @@ class Planner {
       if (last) growth = with, best = std::move(*merged);
     }
     if (!last || !std::isfinite(growth)) start(best), settle();
-    plan_.given_up = std::max(0.0, found - crease_length()) / plan_.input.map.scale;
+    const double lost = found - crease_length();
+    if (lost > kRounding * found) plan_.given_up = lost / plan_.input.map.scale;
     return std::move(plan_);
   }
 

@@ -12,6 +12,7 @@
 #include "nonobtuse/error.h"
 #include "rdt/delaunay_flips.h"
 #include "rdt/vertex_reduction.h"
+#include "remesh/edge_parting.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/patch_meshing.h"
 #include "remesh/refinement.h"
@@ -88,7 +89,7 @@ class FeaturedPart {
     clock_.run("cvt", 0.02, 0.5, [&] { mesh_patches(); });
     reduce();
     // Too few vertices between the features: the edges of two patches would become one.
-    if (separate_chords() > 0 && plan_.manifold) return {};
+    if (part_edges(plan_.manifold, mesh_) > 0 && plan_.manifold) return {};
     if (!monitor.cancelled()) {
       const spatial::TriangleBvh bvh(cut_.surface.vertices, cut_.surface.triangles, workers_);
       clock_.run("valence", 0.5, 0.55, [&] {
@@ -180,55 +181,6 @@ class FeaturedPart {
   [[nodiscard]] double size_at(Index facet) const {
     const std::vector<double>& size = cut_.surface.size;
     return size.empty() ? 1 : size[cut_.surface.triangles[facet][0]];
-  }
-
-  // Flips interior edges between knots that are joined elsewhere too, since gluing would make them
-  // one edge of four faces. Returns how many are left.
-  Index separate_chords() {
-    using Pair = std::pair<Index, Index>;
-    const auto pair_of = [&](mesh::Edge e) {
-      const Index k = mesh_.knot[mesh_.tail(e)], l = mesh_.knot[mesh_.head(e)];
-      return Pair{std::min(k, l), std::max(k, l)};
-    };
-    std::vector<Pair> taken;
-    std::vector<mesh::Edge> chords;
-    for (Index t = 0; t < mesh_.triangle_capacity(); ++t) {
-      if (!mesh_.alive_triangle(t)) continue;
-      for (int k = 0; k < 3; ++k) {
-        const mesh::Edge e{t, k};
-        if (mesh_.adjacent(t, k) < 0) {
-          taken.push_back(pair_of(e));
-        } else if (mesh_.adjacent(t, k) > t && pair_of(e).first >= 0) {
-          chords.push_back(e);
-        }
-      }
-    }
-    std::sort(taken.begin(), taken.end());
-    std::vector<std::pair<Pair, Index>> ends;  // of each chord: its knots and its vertices
-    std::vector<Pair> vertices;
-    for (const mesh::Edge& e : chords) {
-      ends.emplace_back(pair_of(e), static_cast<Index>(vertices.size()));
-      vertices.emplace_back(mesh_.tail(e), mesh_.head(e));
-    }
-    std::sort(ends.begin(), ends.end());
-    Index left = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      const Pair& knots = ends[i].first;
-      const bool again = i > 0 && ends[i - 1].first == knots;
-      if (!again && knots.first != knots.second &&
-          !std::binary_search(taken.begin(), taken.end(), knots))
-        continue;
-      const Pair& v = vertices[ends[i].second];
-      const mesh::Edge e = mesh_.find_edge(v.first, v.second);
-      const bool flips = e.valid() && mesh_.can_flip(e) &&
-                         (mesh_.knot[mesh_.opposite_vertex(e)] < 0 ||
-                          mesh_.knot[mesh_.opposite_vertex(mesh_.twin(e))] < 0);
-      if (flips)
-        mesh_.flip(e);
-      else
-        ++left;
-    }
-    return left;
   }
 
   GluedMesh glue() const {
