@@ -198,7 +198,11 @@ class Planner {
 
   // Creases that we found ourselves need not be kept.
   [[nodiscard]] bool may_give_up() const {
-    return options_.features == Features::Auto && options_.feature_edges.empty();
+    const auto crease = [](const features::FeatureCurve& c) {
+      return !c.boundary && c.facets == 2;
+    };
+    return options_.features == Features::Auto && options_.feature_edges.empty() &&
+           std::any_of(plan_.graph.curves.begin(), plan_.graph.curves.end(), crease);
   }
 
   // Of creases nearer to each other than `width` the blunter go; nothing if there are none.
