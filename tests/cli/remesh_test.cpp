@@ -162,7 +162,8 @@ TEST_F(Remesh, WritesAReport) {
 }
 
 TEST_F(Remesh, AReportThatCannotBeWrittenIsSaid) {
-  std::filesystem::create_directory(path("r.json.part"));  // where it is written first
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  std::filesystem::create_symlink("/dev/full", path("r.json"));
   const Outcome outcome = run_tool({sample(), "-o", path("out.off"), "--vertices", "500", "--quiet",
                                     "--no-distance", "--report", path("r.json")});
   EXPECT_EQ(outcome.exit_code, 2);
