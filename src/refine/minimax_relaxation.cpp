@@ -9,8 +9,6 @@
 #include <limits>
 #include <tuple>
 
-#include "refine/relaxation.h"
-
 namespace nonobtuse::refine {
 namespace {
 
@@ -19,16 +17,6 @@ constexpr double kNear = 0.7;  // part of the largest distance from which on poi
 constexpr double kMostEmphasis = 1000;
 constexpr double kHingeGrowth = 3, kHingeDecay = 1.5;
 constexpr double kOutside = 0.02;  // of the distance, that a triangle outside the goal is worth
-
-void relax_patch(Patch& patch, const TrialOptions& options) {
-  const RelaxationOptions relaxation{options.shape, kPassesPerRound, options.on_surface, true};
-  const parallel::Workers serial(1);
-  std::vector<Index> triangles;
-  for (Index t = 0; t < patch.mesh.triangle_capacity(); ++t)
-    if (patch.mesh.alive_triangle(t)) triangles.push_back(t);
-  relax(patch.mesh, patch.fidelity, patch.inner_vertices(), relaxation, serial);
-  patch.fidelity.rewalk(patch.mesh, triangles);
-}
 
 }  // namespace
 
@@ -59,7 +47,7 @@ void MinimaxRelaxation::run(int rounds) {
   for (int round = 0; round < rounds; ++round) {
     ++rounds_;
     renew_weights();
-    relax_patch(patch_, options_);
+    relax_patch(patch_, options_, kPassesPerRound, true);
     const double far = std::max(options_.far, kNear * least_distance_);
     points_ = far_weights(patch_.mesh, patch_.fidelity, far);
     PatchScore now = patch_.score(options_.shape, promise, goal);

@@ -28,11 +28,8 @@ PatchScore score(const Patch& patch, const TrialOptions& options) {
   return score;
 }
 
-namespace {
-
-void relax_patch(Patch& patch, const TrialOptions& options, int passes) {
-  const RelaxationOptions relaxation{options.shape, passes, options.on_surface,
-                                     patch.fidelity.knots.network() != nullptr};
+void relax_patch(Patch& patch, const TrialOptions& options, int passes, bool gauss_newton) {
+  const RelaxationOptions relaxation{options.shape, passes, options.on_surface, gauss_newton};
   const parallel::Workers serial(1);
   std::vector<Index> triangles;
   for (Index t = 0; t < patch.mesh.triangle_capacity(); ++t)
@@ -40,6 +37,8 @@ void relax_patch(Patch& patch, const TrialOptions& options, int passes) {
   relax(patch.mesh, patch.fidelity, patch.inner_vertices(), relaxation, serial);
   patch.fidelity.rewalk(patch.mesh, triangles);
 }
+
+namespace {
 
 std::optional<Patch> edited(const Patch& patch, const std::vector<Edit>& edits) {
   Patch trial = patch;
@@ -95,8 +94,9 @@ std::optional<Patch> best_of(const Patch& patch, const std::vector<std::vector<E
   };
   const std::int64_t vertices = std::ssize(patch.inner_vertices());
   std::vector<Trial> trials(sequences.size());
+  const bool beside_curves = patch.fidelity.knots.network() != nullptr;
   const auto improve = [&](Trial& trial, int passes) {
-    relax_patch(*trial.patch, options, passes);
+    relax_patch(*trial.patch, options, passes, beside_curves);
     trial.score = score(*trial.patch, options);
   };
   // A short relaxation of all, then a long one of the most promising.

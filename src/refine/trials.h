@@ -40,6 +40,10 @@ struct TrialOptions {
   TrialBudget* budget = nullptr;    ///< shared; none: whatever it takes
 };
 
+/// Gauss-Seidel passes over the inner vertices of a patch, then the feet of its triangles anew;
+/// `gauss_newton` as in RelaxationOptions.
+void relax_patch(Patch& patch, const TrialOptions& options, int passes, bool gauss_newton);
+
 PatchScore score(const Patch& patch, const TrialOptions& options);
 
 /// The best of several sequences by score, with its score; nothing if none is possible or the
