@@ -69,6 +69,7 @@ class CellEvaluator {
   void integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void integrate_weighted(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void sum_chunks(std::span<const Vec3> sites, CellIntegrals& out) const;
+  [[nodiscard]] std::vector<std::array<Index, 2>> adjacent_cells(const Chunk& chunk) const;
 
   const parallel::Workers& workers_;
   Index site_count_;
