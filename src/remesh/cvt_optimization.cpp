@@ -9,6 +9,7 @@
 #include "energy/cvt.h"
 #include "optimize/lbfgs.h"
 #include "remesh/initial_sampling.h"
+#include "remesh/mass_balance.h"
 #include "remesh/restricted_diagram.h"
 #include "spatial/hilbert_order.h"
 
@@ -20,6 +21,7 @@ constexpr int kPairs = 7;
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kBacktracks = 5;
 constexpr Index kFewestToQuarter = 64;
+constexpr int kEvaluationsBeforeBalance = 4;
 
 // A point of the descent with all that is known there.
 struct Iterate {
@@ -297,6 +299,13 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
     rvd::CellEvaluator evaluator(surface, static_cast<Index>(sites.points.size()), workers);
     const int evaluations = level == 0 ? options.iterations : options.coarse_iterations;
     const double share = evaluations / total;
+    if (level + 1 < quotas.size() && surface.size.empty() && !monitor.cancelled()) {
+      // Midpoints of edges come too few where coarse cells reached around a finger.
+      balance_masses(evaluator, sites.component, sites.points);
+      minimize_cvt(evaluator, sites.points, kEvaluationsBeforeBalance, 0, workers,
+                   [&](const DescentState&) { return monitor.tick(done); });
+      balance_masses(evaluator, sites.component, sites.points);
+    }
     if (!monitor.cancelled())
       descend(surface, evaluator, sites.points,
               {evaluations, level == 0 ? options.tolerance : options.coarse_tolerance,

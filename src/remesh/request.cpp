@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kPaperIterations = 40;
 constexpr Index kMostVertices = 100'000'000;  // so that no 32-bit index overflows
-constexpr double kVeryFewVertices = 3000, kFewVertices = 5500;
+constexpr double kVeryFewVertices = 3000, kFewVertices = 5500, kManyVertices = 10000;
+constexpr double kTolerance = 1e-3;
 
 double bounding_box_diagonal(const TriangleMesh& mesh) {
   Vec3 low = mesh.vertices.front();
@@ -138,7 +139,9 @@ CvtOptions cvt_options(const RemeshOptions& options, Index n) {
   if (options.method == Method::Default) {
     // On small meshes longer descents cost little, and limbs of few vertices need them.
     const double small = std::clamp((kFewVertices - n) / (kFewVertices - kVeryFewVertices), 0., 1.);
-    result.tolerance *= 1 - 0.75 * small;
+    // Refinement does the rest at less cost, but for large meshes: those are asked for on surfaces
+    // that leave no shape to spare.
+    if (n <= kManyVertices) result.tolerance = kTolerance * (1 - 0.9 * small);
     result.coarse_tolerance *= 1 - 0.8 * small;
     result.iterations += static_cast<int>(220 * small);
     result.coarse_iterations += static_cast<int>(120 * small);
