@@ -21,7 +21,7 @@ constexpr int kPairs = 7;
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kBacktracks = 5;
 constexpr Index kFewestToQuarter = 64;
-constexpr int kEvaluationsBeforeBalance = 4;
+constexpr int kEvaluationsBeforeBalance = 3;
 
 // A point of the descent with all that is known there.
 struct Iterate {
