@@ -1,6 +1,7 @@
 #include "features/narrow_corners.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -16,9 +17,12 @@ namespace nonobtuse::features {
 namespace {
 
 constexpr double kNarrow = 30;     // degrees
-constexpr double kOneEdge = 1.15;  // of the reach: a curve this short is one edge
-constexpr double kShort = 2.6;     // first edges of both ends fit on a curve this many times longer
-constexpr double kSame = 1e-6;     // of an edge: a vertex this near is the one wanted
+constexpr double kOneFits = 60;    // degrees: two triangles would each have less than 30
+constexpr double kLargest = 86;    // degrees, beside a corner with one triangle
+constexpr double kOneEdge = 1.65;  // of the reach: a curve this short is one edge
+// A first edge leaves room on its curve for an edge of this many times its length.
+constexpr double kRest = 0.6;
+constexpr double kSame = 1e-6;  // of an edge: a vertex this near is the one wanted
 
 // One end of a curve.
 struct CurveEnd {
@@ -29,6 +33,7 @@ struct CurveEnd {
 bool operator<(const CurveEnd& a, const CurveEnd& b) {
   return std::pair(a.curve, a.back) < std::pair(b.curve, b.back);
 }
+bool same(const CurveEnd& a, const CurveEnd& b) { return !(a < b) && !(b < a); }
 
 class CornerSettler {
  public:
@@ -85,16 +90,16 @@ class CornerSettler {
           across[sector].push_back(previous);
       }
     for (std::size_t s = 0; s < degrees.size(); ++s) {
-      if (across[s].size() != 2 || degrees[s] >= kNarrow) continue;
+      if (across[s].size() != 2 || degrees[s] >= kOneFits) continue;
       std::vector<CurveEnd> ends;
       for (const Index u : across[s])
         if (const auto e = end_at.find({cut.original[s], u}); e != end_at.end())
           if (held_.empty() || held_[e->second.curve] == 0) ends.push_back(e->second);
       if (ends.size() != 2) continue;
+      if (degrees[s] >= kNarrow && one_triangle_fits(ends)) continue;
       std::vector<CurveEnd>& all = narrow_[cut.original[s]];
       all.insert(all.end(), ends.begin(), ends.end());
     }
-    const auto same = [](const CurveEnd& a, const CurveEnd& b) { return !(a < b) && !(b < a); };
     for (auto& [corner, ends] : narrow_) {
       std::sort(ends.begin(), ends.end());
       ends.erase(std::unique(ends.begin(), ends.end(), same), ends.end());
@@ -128,18 +133,54 @@ class CornerSettler {
     return far;
   }
 
+  // Whether a triangle may have its other corners where the knots will be: they slide, but where
+  // both curves are no longer than an edge.
+  [[nodiscard]] bool one_triangle_fits(const std::vector<CurveEnd>& ends) const {
+    const Index corner = vertex(ends[0], 0);
+    std::array<Vec3, 2> p;
+    for (int i = 0; i < 2; ++i) {
+      bool whole = false;
+      if (room(ends[i], whole) > kOneEdge * reach_ * size_at(corner) || !whole) return true;
+      p[i] = surface_.vertices[vertex(ends[i], last(ends[i]))];
+    }
+    const Vec3& apex = surface_.vertices[corner];
+    return mesh::corner_degrees(p[0], p[1], apex) <= kLargest &&
+           mesh::corner_degrees(p[1], p[0], apex) <= kLargest;
+  }
+
+  // The longest first edges, no longer than the reach, that all curves have room for.
   [[nodiscard]] double common_reach(Index corner, const std::vector<CurveEnd>& ends) const {
     const double most = reach_ * size_at(corner);
-    double r = most;
+    struct Room {
+      double far;
+      bool whole;
+      double share;  // of it, that a first edge may take
+    };
+    std::vector<Room> rooms;
+    std::vector<double> candidates{most};
     for (const CurveEnd& e : ends) {
-      bool whole = false;
-      const double far = room(e, whole);
-      if (whole && far <= kOneEdge * most)
-        r = std::min(r, far);
-      else if (far < kShort * most)
-        r = std::min(r, far / kShort);
+      Room r{};
+      r.far = room(e, r.whole);
+      r.share = 1 / (1 + kRest + (also_narrow({e.curve, !e.back}) ? 1 : 0));
+      rooms.push_back(r);
+      if (r.whole && r.far <= kOneEdge * most) candidates.push_back(r.far);
+      candidates.push_back(r.share * r.far);
     }
-    return r;
+    const auto fits = [&](double length) {
+      return std::all_of(rooms.begin(), rooms.end(), [&](const Room& r) {
+        return length <= r.share * r.far || (r.whole && length == r.far);
+      });
+    };
+    double longest = 0;
+    for (const double c : candidates)
+      if (c > longest && fits(c)) longest = c;
+    return longest;
+  }
+
+  [[nodiscard]] bool also_narrow(const CurveEnd& e) const {
+    const auto at = narrow_.find(vertex(e, 0));
+    return at != narrow_.end() && std::any_of(at->second.begin(), at->second.end(),
+                                              [&](const CurveEnd& o) { return same(o, e); });
   }
 
   // The vertex of the curve at distance r from its corner.
