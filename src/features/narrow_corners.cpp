@@ -19,7 +19,8 @@ namespace {
 constexpr double kNarrow = 30;     // degrees
 constexpr double kOneFits = 60;    // degrees: two triangles would each have less than 30
 constexpr double kLargest = 86;    // degrees, beside a corner with one triangle
-constexpr double kOneEdge = 1.65;  // of the reach: a curve this short is one edge
+constexpr double kOneEdge = 1.65;  // of the reach: a curve this short has one edge
+constexpr double kWhole = 1.15;    // of the reach: a curve this short is a first edge
 // A first edge leaves room on its curve for an edge of this many times its length.
 constexpr double kRest = 0.6;
 constexpr double kSame = 1e-6;  // of an edge: a vertex this near is the one wanted
@@ -163,8 +164,8 @@ class CornerSettler {
       r.far = room(e, r.whole);
       r.share = 1 / (1 + kRest + (also_narrow({e.curve, !e.back}) ? 1 : 0));
       rooms.push_back(r);
-      if (r.whole && r.far <= kOneEdge * most) candidates.push_back(r.far);
-      candidates.push_back(r.share * r.far);
+      if (r.whole && r.far <= kWhole * most) candidates.push_back(r.far);
+      candidates.push_back(std::min(most, r.share * r.far));
     }
     const auto fits = [&](double length) {
       return std::all_of(rooms.begin(), rooms.end(), [&](const Room& r) {

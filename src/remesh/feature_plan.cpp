@@ -112,8 +112,9 @@ std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan, const 
 
 class Planner {
  public:
-  Planner(const Part& part, Index vertices, const RemeshOptions& options)
-      : vertices_(vertices), options_(options), points_(part.points) {
+  Planner(const Part& part, Index vertices, const RemeshOptions& options,
+          const std::vector<FinePlace>& places)
+      : vertices_(vertices), options_(options), points_(part.points), places_(places) {
     plan_.input = normalize(part.mesh, vertices);
     plan_.originals = static_cast<Index>(plan_.input.surface.vertices.size());
     set_sizes(part.length, plan_.input);
@@ -263,10 +264,11 @@ class Planner {
     features::ResolvedSurface fine = features::resolve_surface(
         plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
     features::FeatureGraph graph = this->graph(fine.surface, fine.flags, plan_.graph.corner);
-    const std::vector<double> bounds = features::narrow_places(
+    std::vector<double> bounds = features::narrow_places(
         fine.surface, fine.flags, graph, largest * kEdgeLength, frugal_,
         features::narrow_corner_marks(fine.surface, graph, first_edges_,
                                       kTightReach * kFirstEdge * kEdgeLength));
+    bound_places(fine.surface, bounds);
     const std::vector<double> asked = fine.surface.size;
     const auto local = [&](std::size_t v) { return asked.empty() ? 1.0 : asked[v]; };
     const std::vector<double> given = frozen_lengths(fine.surface);
@@ -300,6 +302,20 @@ class Planner {
     set_sizes(length, sized);
     plan_.surface = std::move(sized.surface);
     return h / kEdgeLength;
+  }
+
+  // Bounds at the vertices within an edge of a fine place, the nearest at any rate.
+  void bound_places(const mesh::Surface& fine, std::vector<double>& bounds) const {
+    for (const FinePlace& place : places_) {
+      std::size_t nearest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t v = 0; v < bounds.size(); ++v) {
+        const double d = distance(fine.vertices[v], place.at);
+        if (d < least) least = d, nearest = v;
+        if (d < place.length) bounds[v] = std::min(bounds[v], place.length);
+      }
+      bounds[nearest] = std::min(bounds[nearest], place.length);
+    }
   }
 
   // #V: the mean length of the frozen edges at a vertex, 0 elsewhere; empty if there are none.
@@ -348,6 +364,7 @@ class Planner {
   Index vertices_;
   const RemeshOptions& options_;
   const std::vector<Index>& points_;
+  const std::vector<FinePlace>& places_;
   FeaturePlan plan_;
   std::vector<features::FirstEdge> first_edges_;  // of narrow corners
   bool frugal_ = false;
@@ -355,8 +372,9 @@ class Planner {
 
 }  // namespace
 
-FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options) {
-  return Planner(part, vertices, options).run();
+FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options,
+                          const std::vector<FinePlace>& fine) {
+  return Planner(part, vertices, options, fine).run();
 }
 
 }  // namespace nonobtuse::pipeline
