@@ -40,7 +40,7 @@ constexpr double kDifference = 1e-4;
 constexpr int kDampings = 6;
 constexpr double kLongestDiagonal = 6;  // squared, times the edge that it replaces
 constexpr double kLeastCosine = 0.4;    // of new triangles with the old ones
-constexpr double kTurnedOver = -0.067;    // cosine of a triangle with the surface
+constexpr double kTurnedOver = -0.067;  // cosine of a triangle with the surface
 constexpr double kAgainst = 1e4;        // energy of a triangle against the surface
 constexpr double kFar = 0.01;           // squared distance of an edge that is looked at twice
 
@@ -71,7 +71,8 @@ class Annealing {
       const double temperature = kTemperature * (1 - sweep / (kSweeps - 1.0));
       for (Index t = 0; t < mesh_.triangle_capacity(); ++t)
         for (int k = 0; k < 3; ++k)
-          if (may_flip({t, k})) try_flip({t, k}, 2 * temperature * random.uniform());
+          if (mesh_.adjacent(t, k) > t && may_flip({t, k}))
+            try_flip({t, k}, 2 * temperature * random.uniform());
       slide_all(kPassesBetween);
     }
   }
@@ -83,8 +84,7 @@ class Annealing {
                Vec3* gradient) const {
     const Vec3 vector = area_vector(x, y, z);
     const double area = length(vector);  // twice; 1 on the mean
-    if (!(area > 1e-9) || dot(vector, outwards) <= kTurnedOver * area)
-      return kAgainst;
+    if (!(area > 1e-9) || dot(vector, outwards) <= kTurnedOver * area) return kAgainst;
     const double edges = squared_distance(x, y) + squared_distance(y, z) + squared_distance(z, x);
     const double scale = 1 / (2 * std::sqrt(3.0) * area);
     if (gradient) {
