@@ -127,7 +127,8 @@ std::optional<pipeline::FeaturePlan> plan_part(const pipeline::Part& part, Index
 bool remesh_featured(const pipeline::Part& part, const pipeline::FeaturePlan& plan, Index n,
                      const RemeshOptions& options, const parallel::Workers& workers,
                      pipeline::StageClock& clock, RemeshResult& result) {
-  const pipeline::GluedMesh mesh = pipeline::remesh_features(plan, n, options, workers, clock);
+  const pipeline::GluedMesh mesh =
+      pipeline::remesh_features(part, plan, n, options, workers, clock);
   if (!mesh.mesh.triangles.empty()) {
     pipeline::append_part(part, plan.input, mesh, workers, result);
     return true;
