@@ -299,7 +299,8 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
     rvd::CellEvaluator evaluator(surface, static_cast<Index>(sites.points.size()), workers);
     const int evaluations = level == 0 ? options.iterations : options.coarse_iterations;
     const double share = evaluations / total;
-    if (level + 1 < quotas.size() && surface.size.empty() && !monitor.cancelled()) {
+    if (options.balanced && level + 1 < quotas.size() && surface.size.empty() &&
+        !monitor.cancelled()) {
       // Midpoints of edges come too few where coarse cells reached around a finger.
       balance_masses(evaluator, sites.component, sites.points);
       minimize_cvt(evaluator, sites.points, kEvaluationsBeforeBalance, 0, workers,

@@ -39,6 +39,9 @@ struct CvtOptions {
   /// For a surface of one component the sites of the coarsest level, optimised already, if that is
   /// as many as are wanted there; else they are sampled.
   TouchingSites start{};
+  /// Whether sites move from light cells into heavy ones before a level that comes of a coarser
+  /// one.
+  bool balanced = false;
   bool recorded = true;  ///< whether the iterations with all sites go into the history
 };
 
