@@ -4,8 +4,10 @@
 #include "refine/distance_mending.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -138,11 +140,14 @@ class DistanceMender {
   bool by_pair(Index t, int rings) {
     const Patch patch = patch_around(mesh_.triangle(t), rings);
     std::vector<std::vector<Edit>> sequences;
-    for (Index v : local(patch, t))
-      for (auto& edits : search_balancing_edits(patch, v, 1, kPairSequences))
-        sequences.push_back(edits);
-    std::optional<State> before;
-    if (!commit_best(patch, sequences, &before)) return false;
+    const Triangle corner = local(patch, t);
+    std::array<std::vector<std::vector<Edit>>, 3> found;
+    workers_.for_each(3, 1, [&](std::size_t k) {
+      found[k] = search_balancing_edits(patch, corner[k], 1, kPairSequences);
+    });
+    for (auto& of_corner : found)
+      std::move(of_corner.begin(), of_corner.end(), std::back_inserter(sequences));
+    if (!commit_best(patch, sequences, true)) return false;
     std::vector<Index> touched;
     TrialOptions elsewhere = options_;
     elsewhere.budget = nullptr;
@@ -150,9 +155,9 @@ class DistanceMender {
       renew(touched);
       return true;
     }
-    mesh_ = std::move(before->mesh);
-    fidelity_ = std::move(before->fidelity);
-    far_points_ = std::move(before->far_points);
+    mesh_ = backup_->mesh;
+    fidelity_ = backup_->fidelity;
+    far_points_ = backup_->far_points;
     return false;
   }
 
@@ -162,6 +167,17 @@ class DistanceMender {
     Fidelity fidelity;
     FarPoints far_points;
   };
+
+  // Into the same memory every time.
+  void back_up() {
+    if (!backup_) {
+      backup_.emplace(State{mesh_, fidelity_, far_points_});
+      return;
+    }
+    backup_->mesh = mesh_;
+    backup_->fidelity = fidelity_;
+    backup_->far_points = far_points_;
+  }
 
   // Without samples whose foot is lost on a wrong sheet: what is nearest at all is much nearer.
   [[nodiscard]] Patch patch_around(std::span<const Index> center, int rings) const {
@@ -188,14 +204,14 @@ class DistanceMender {
   }
 
   bool commit_best(const Patch& patch, const std::vector<std::vector<Edit>>& sequences,
-                   std::optional<State>* state = nullptr) {
+                   bool keep_state = false) {
     PatchScore after;
     std::optional<Patch> best = best_of(patch, sequences, options_, workers_, after);
-    return best && commit_if_better(patch, std::move(*best), after, kClearly, state);
+    return best && commit_if_better(patch, std::move(*best), after, kClearly, keep_state);
   }
 
   bool commit_if_better(const Patch& patch, Patch best, PatchScore after, double part,
-                        std::optional<State>* state = nullptr) {
+                        bool keep_state = false) {
     if (!std::isfinite(after.energy)) return false;
     const PatchScore before = score(patch, options_);
     after.distance = largest_distance(best.mesh, best.fidelity, options_.far);
@@ -204,7 +220,7 @@ class DistanceMender {
         after.outside_goal > before.outside_goal || !(after.distance < part * before.distance) ||
         folds_.count(best) > folds_.count(patch))
       return false;
-    if (state) state->emplace(State{mesh_, fidelity_, far_points_});
+    if (keep_state) back_up();
     renew(best.commit(mesh_, fidelity_));
     return true;
   }
@@ -219,7 +235,7 @@ class DistanceMender {
   // Adds what is far of the surface near these triangles to the samples, and measures them anew.
   void look_closely(const std::vector<Index>& around, const std::vector<Index>& changed = {}) {
     fidelity_.emphasize_far_ridges(mesh_, enough_, kNewWeight, 1, workers_, &around);
-    far_points_.update(changed, around);
+    far_points_.update(changed, around, workers_);
   }
 
   mesh::EditableMesh& mesh_;
@@ -230,6 +246,7 @@ class DistanceMender {
   const parallel::Workers& workers_;
   FoldTest folds_;
   FarPoints far_points_;
+  std::optional<State> backup_;
 };
 
 }  // namespace

@@ -196,7 +196,8 @@ double FarPoints::squared_distance(const Vec3& p, double limit) const {
   return nearest_of(*mesh_, changed_, p, limit);
 }
 
-void FarPoints::update(const std::vector<Index>& changed, const std::vector<Index>& around) {
+void FarPoints::update(const std::vector<Index>& changed, const std::vector<Index>& around,
+                       const parallel::Workers& workers) {
   is_changed_.resize(mesh_->triangle_capacity(), 1);
   for (Index t : changed) {
     is_changed_[t] = 1;
@@ -207,16 +208,16 @@ void FarPoints::update(const std::vector<Index>& changed, const std::vector<Inde
     return !mesh_->alive_triangle(p.triangle) ||
            std::binary_search(around.begin(), around.end(), p.triangle);
   });
-  for (Index t : around) add(t);
+  std::vector<double> largest(around.size(), far_);
+  workers.for_each(around.size(), 8, [&](std::size_t i) {
+    if (mesh_->alive_triangle(around[i]))
+      largest[i] = triangle_distance(
+          *mesh_, *fidelity_, around[i], far_,
+          [&](const Vec3& p, double squared) { return squared_distance(p, squared); });
+  });
+  for (std::size_t i = 0; i < around.size(); ++i)
+    if (largest[i] > far_) list_.push_back({largest[i], around[i]});
   sort();
-}
-
-void FarPoints::add(Index t) {
-  if (!mesh_->alive_triangle(t)) return;
-  const double largest = triangle_distance(
-      *mesh_, *fidelity_, t, far_,
-      [&](const Vec3& p, double squared) { return squared_distance(p, squared); });
-  if (largest > far_) list_.push_back({largest, t});
 }
 
 void FarPoints::sort() {

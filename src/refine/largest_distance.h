@@ -43,14 +43,14 @@ class FarPoints {
   FarPoints(const mesh::EditableMesh& mesh, const Fidelity& fidelity, double far,
             const parallel::Workers& workers);
   /// After a change of these triangles and of the samples of triangles around them.
-  void update(const std::vector<Index>& changed, const std::vector<Index>& around);
+  void update(const std::vector<Index>& changed, const std::vector<Index>& around,
+              const parallel::Workers& workers);
   /// The farthest first.
   [[nodiscard]] const std::vector<FarPoint>& list() const { return list_; }
   /// Squared distance of a point from the mesh, if less than `limit`, else that.
   [[nodiscard]] double squared_distance(const Vec3& p, double limit) const;
 
  private:
-  void add(Index t);
   void sort();
 
   const mesh::EditableMesh* mesh_;
