@@ -91,6 +91,7 @@ class Refinement {
     local.shape = energy::hinged(100, lo + 1, hi - 1);
     local.on_surface = options_.on_surface;
     refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh_.vertex_count());
+    budget.places.emplace();
     if (!fidelity_.knots.empty()) local.budget = &budget;
     Index outside = mend_and_sweep(local);
     // Beside creases a second attempt finds a mesh in better order.
@@ -146,6 +147,7 @@ class Refinement {
     const refine::AngleGoal least{std::min(options_.min_angle, refine::kPromise.smallest + 1),
                                   std::max(options_.max_angle, refine::kPromise.largest - 1)};
     refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 * mesh_.vertex_count());
+    budget.places.emplace();
     refine::sweep_angles(
         mesh_, fidelity_, least, options_.on_surface, workers_,
         [&](double f) { return tick(0.85 + 0.05 * f); }, &budget);

@@ -39,6 +39,7 @@ Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh&
   options.shape = energy::hinged(10, 35, 86);
   options.goal = {35, 86};
   refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh.vertex_count());
+  budget.places.emplace();
   if (curves) options.budget = &budget;
   double attempts = 0;
   const Index left = refine::mend_valences(mesh, fidelity, options, false, workers, [&] {
