@@ -52,10 +52,12 @@ class WidthFinder {
     find_sides(flags);
   }
 
-  // `closed` (#V): on closed curves that need not be told apart by inner vertices.
-  void bound(const std::vector<char>& closed, std::vector<double>& bounds) {
+  // `tight` (#V): 1 on curves that need not be told apart by inner vertices, 2 where no width
+  // counts.
+  void bound(const std::vector<char>& tight, std::vector<double>& bounds) {
     for_each_place([&](Index v, const Side& side, double width) {
-      const bool ring = closed[v] != 0 && closed[ends(side).first] != 0;
+      if (tight[v] == 2) return;
+      const bool ring = tight[v] != 0 && tight[ends(side).first] != 0;
       bounds[v] = std::min(bounds[v], (ring ? kOfRing : kOfWidth) * width);
     });
   }
@@ -261,7 +263,8 @@ std::vector<Index> networks(const mesh::Surface& surface, const FeatureGraph& gr
 }  // namespace
 
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
-                                  const FeatureGraph& graph, double h, bool frugal) {
+                                  const FeatureGraph& graph, double h, bool frugal,
+                                  const std::vector<char>& marks) {
   std::vector<double> bounds(surface.vertices.size(), kInfinite);
   for (const FeatureCurve& curve : graph.curves) {
     const double length = curve_lengths(surface, curve).arc.back();
@@ -269,10 +272,12 @@ std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags&
     if (!(bound < h)) continue;
     for (const Index v : curve.vertices) bounds[v] = std::min(bounds[v], bound);
   }
-  std::vector<char> closed(surface.vertices.size(), 0);
+  std::vector<char> tight = marks;
+  tight.resize(surface.vertices.size(), 0);
   for (const FeatureCurve& curve : graph.curves)
-    for (const Index v : curve.vertices) closed[v] = frugal && curve.closed ? 1 : 0;
-  WidthFinder(surface, flags, h / kOfWidth).bound(closed, bounds);
+    for (const Index v : curve.vertices)
+      if (frugal && curve.closed && tight[v] == 0) tight[v] = 1;
+  WidthFinder(surface, flags, h / kOfWidth).bound(tight, bounds);
   return bounds;
 }
 

@@ -16,9 +16,12 @@ namespace nonobtuse::features {
 /// there; if `frugal`, w between two closed curves, where a strip can do without inner vertices (of
 /// pairs of points, along straight lines into the patch; not of two curves that part from each
 /// other in a corner), and what gives short curves one segment, closed ones six. Only vertices on
-/// features get a bound; they should be less than h / 2 apart.
+/// features get a bound; they should be less than h / 2 apart. `marks` (#V, or empty) as
+/// narrow_corner_marks gives them: between vertices marked 1 the bound is w, too, and those marked
+/// 2 are bounded by no width.
 std::vector<double> narrow_places(const mesh::Surface& surface, const EdgeFlags& flags,
-                                  const FeatureGraph& graph, double h, bool frugal = false);
+                                  const FeatureGraph& graph, double h, bool frugal = false,
+                                  const std::vector<char>& marks = {});
 
 /// Makes one of features nearer to each other than `width` (working units): takes the flags off
 /// parts of curves that face others across a narrower strip, and off the whole curve if they are

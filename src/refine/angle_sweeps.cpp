@@ -66,11 +66,13 @@ void sweep(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& aim,
 
 Index sweep_angles(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal& goal,
                    bool on_surface, const parallel::Workers& workers,
-                   const std::function<bool(double)>& keep_going, TrialBudget* budget) {
+                   const std::function<bool(double)>& keep_going, TrialBudget* budget,
+                   double circumcentre) {
   RelaxationOptions options;
   options.gauss_newton = !fidelity.knots.empty();
   options.on_surface = on_surface;
   options.shape = energy::hinged(kHinge, goal.smallest + 3, goal.largest - 3);
+  options.shape.circumcentre = circumcentre;
   sweep(mesh, fidelity, {goal.smallest + 2, goal.largest - 2}, options, 1, workers,
         [&](double f) { return keep_going(0.4 * f); });
   const AngleTest test(goal);
@@ -78,6 +80,7 @@ Index sweep_angles(mesh::EditableMesh& mesh, Fidelity& fidelity, const AngleGoal
   trial.goal = goal;
   trial.budget = budget;
   trial.shape = options.shape = energy::hinged(kHinge, goal.smallest + 1, goal.largest - 1);
+  trial.shape.circumcentre = options.shape.circumcentre = circumcentre;
   trial.on_surface = on_surface;
   // What is still outside the goal itself may cost some fidelity, then other connectivity.
   for (int round = 0; round < kRounds; ++round) {

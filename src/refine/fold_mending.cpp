@@ -186,7 +186,7 @@ class FoldMender {
       if (outside_before < kManyOutside)
         sweep_angles(
             mesh_, fidelity_, options_.goal, options_.on_surface, workers_,
-            [](double) { return true; }, &budget_);
+            [](double) { return true; }, &budget_, options_.shape.circumcentre);
       std::vector<std::vector<Index>> folds = find_folds(mesh_, fidelity_, test_, workers_, true);
       if (folds.size() < folds_.size() && outside() <= outside_before) {
         folds_ = std::move(folds);

@@ -11,6 +11,7 @@
 #include "features/crease_detection.h"
 #include "features/facet_splitting.h"
 #include "features/knot_insertion.h"
+#include "features/narrow_corners.h"
 #include "features/narrow_places.h"
 #include "mesh/topology.h"
 #include "nonobtuse/error.h"
@@ -28,6 +29,9 @@ constexpr double kFlatWidth = 1.8;       // of an edge length: of the sides of a
 constexpr double kFeatureEdge = 0.45;    // of an edge length: longest piece of a feature edge while
                                          // widths are measured
 constexpr double kLeastSize = 0.05;      // of an edge length
+constexpr double kFirstEdge = 1;         // of an edge length: from narrow corners
+constexpr double kTightReach = 4;        // of it: how far beside them no inner vertices are needed
+constexpr double kSteepest = 0.75;       // by how much sizes fall along first edges, per length
 constexpr double kRounding = 1e-9;
 constexpr int kSizeSteps = 8;
 // Creases that would make all other edges longer than this many times are given up, the nearest to
@@ -90,8 +94,8 @@ std::vector<features::PatchDemand> patch_demands(const mesh::Surface& surface,
   return demands;
 }
 
-std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan,
-                                                 const PatchLayout& layout) {
+std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan, const PatchLayout& layout,
+                                                 const std::vector<features::FirstEdge>& single) {
   const mesh::Surface& surface = plan.surface;
   std::map<std::pair<Index, Index>, int> between;  // curves with the same ends
   std::vector<Index> degree(surface.vertices.size(), 0);
@@ -114,6 +118,10 @@ std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan,
       d.fixed = static_cast<Index>(std::count_if(curve.vertices.begin(), curve.vertices.end(),
                                                  [&](Index v) { return v < plan.originals; })) -
                 (curve.closed ? 0 : 1);
+    if (std::any_of(single.begin(), single.end(), [&](const features::FirstEdge& e) {
+          return !curve.closed && ends == std::minmax({e.corner, e.end});
+        }))
+      d.fixed = 1;
     d.patches = layout.curve_patches[c];
     demands.push_back(std::move(d));
   }
@@ -122,8 +130,9 @@ std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan,
 
 class Planner {
  public:
-  Planner(const Part& part, Index vertices, const RemeshOptions& options)
-      : vertices_(vertices), options_(options), points_(part.points) {
+  Planner(const Part& part, Index vertices, const RemeshOptions& options,
+          const std::vector<FinePlace>& places)
+      : vertices_(vertices), options_(options), points_(part.points), places_(places) {
     plan_.input = normalize(part.mesh, vertices);
     plan_.originals = static_cast<Index>(plan_.input.surface.vertices.size());
     set_sizes(part.length, plan_.input);
@@ -191,6 +200,11 @@ class Planner {
         points_.empty() && std::all_of(plan_.graph.curves.begin(), plan_.graph.curves.end(),
                                        [](const auto& curve) { return curve.facets <= 2; });
     find_frozen();
+    first_edges_ = features::settle_narrow_corners(plan_.surface, plan_.flags, plan_.graph,
+                                                   kFirstEdge * kEdgeLength, plan_.frozen);
+    if (first_edges_.empty()) return true;
+    plan_.graph = graph(plan_.surface, plan_.flags, plan_.graph.corner);
+    find_frozen();
     return true;
   }
 
@@ -253,7 +267,7 @@ class Planner {
 
   void balance() {
     if (!layout_) layout_.emplace(plan_.surface, plan_.flags, plan_.graph);
-    plan_.balance = features::balance_vertices(curve_demands(plan_, *layout_),
+    plan_.balance = features::balance_vertices(curve_demands(plan_, *layout_, first_edges_),
                                                patch_demands(plan_.surface, *layout_),
                                                plan_.graph.corner_count(), vertices_);
   }
@@ -268,8 +282,11 @@ class Planner {
     features::ResolvedSurface fine = features::resolve_surface(
         plan_.surface, plan_.flags, kEdgeLength, kFeatureEdge * kEdgeLength);
     features::FeatureGraph graph = this->graph(fine.surface, fine.flags, plan_.graph.corner);
-    const std::vector<double> bounds =
-        features::narrow_places(fine.surface, fine.flags, graph, largest * kEdgeLength, frugal_);
+    std::vector<double> bounds = features::narrow_places(
+        fine.surface, fine.flags, graph, largest * kEdgeLength, frugal_,
+        features::narrow_corner_marks(fine.surface, graph, first_edges_,
+                                      kTightReach * kFirstEdge * kEdgeLength));
+    bound_places(fine.surface, bounds);
     const std::vector<double> asked = fine.surface.size;
     const auto local = [&](std::size_t v) { return asked.empty() ? 1.0 : asked[v]; };
     const std::vector<double> given = frozen_lengths(fine.surface);
@@ -292,7 +309,8 @@ class Planner {
       for (std::size_t v = 0; v < given.size(); ++v)
         if (given[v] > 0) size[v] = given[v];
       sizing::limit_gradation(plan_.surface, options_.gradation, size);
-      raise_to(given, size);
+      raise_to(given, options_.gradation, size);
+      raise_to(first_lengths(), kSteepest, size);
       balance();
       h *= plan_.balance.edge_length;
       if (std::abs(plan_.balance.edge_length - 1) < 1e-3) break;
@@ -303,6 +321,20 @@ class Planner {
     set_sizes(length, sized);
     plan_.surface = std::move(sized.surface);
     return h / kEdgeLength;
+  }
+
+  // Bounds at the vertices within an edge of a fine place, the nearest at any rate.
+  void bound_places(const mesh::Surface& fine, std::vector<double>& bounds) const {
+    for (const FinePlace& place : places_) {
+      std::size_t nearest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t v = 0; v < bounds.size(); ++v) {
+        const double d = distance(fine.vertices[v], place.at);
+        if (d < least) least = d, nearest = v;
+        if (d < place.length) bounds[v] = std::min(bounds[v], place.length);
+      }
+      bounds[nearest] = std::min(bounds[nearest], place.length);
+    }
   }
 
   // #V: the mean length of the frozen edges at a vertex, 0 elsewhere; empty if there are none.
@@ -324,29 +356,45 @@ class Planner {
     return lengths;
   }
 
+  // #V: what fits the first edge at a narrow corner, 0 elsewhere; empty if there are none.
+  [[nodiscard]] std::vector<double> first_lengths() const {
+    std::vector<double> lengths;
+    if (first_edges_.empty()) return lengths;
+    lengths.resize(plan_.surface.vertices.size(), 0);
+    for (const features::FirstEdge& e : first_edges_)
+      lengths[e.corner] =
+          distance(plan_.surface.vertices[e.corner], plan_.surface.vertices[e.end]) /
+          features::kCurveSpacing;
+    return lengths;
+  }
+
   // Sizes not below what the given ones, falling by the gradation with distance, leave.
-  void raise_to(const std::vector<double>& given, std::vector<double>& size) const {
+  void raise_to(const std::vector<double>& given, double gradation,
+                std::vector<double>& size) const {
     if (given.empty()) return;
     const double largest = *std::max_element(given.begin(), given.end());
     std::vector<double> fall(size.size(), std::numeric_limits<double>::infinity());
     for (std::size_t v = 0; v < given.size(); ++v)
       if (given[v] > 0) fall[v] = largest - given[v];
-    sizing::limit_gradation(plan_.surface, options_.gradation, fall);
+    sizing::limit_gradation(plan_.surface, gradation, fall);
     for (std::size_t v = 0; v < size.size(); ++v) size[v] = std::max(size[v], largest - fall[v]);
   }
 
   Index vertices_;
   const RemeshOptions& options_;
   const std::vector<Index>& points_;
+  const std::vector<FinePlace>& places_;
   FeaturePlan plan_;
   std::optional<PatchLayout> layout_;  // of the plan's surface and flags, if it was asked for
+  std::vector<features::FirstEdge> first_edges_;  // of narrow corners
   bool frugal_ = false;
 };
 
 }  // namespace
 
-FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options) {
-  return Planner(part, vertices, options).run();
+FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options,
+                          const std::vector<FinePlace>& fine) {
+  return Planner(part, vertices, options, fine).run();
 }
 
 }  // namespace nonobtuse::pipeline

@@ -32,7 +32,14 @@ struct FeaturePlan {
   bool manifold = true;      ///< no edge has three facets, no fans touch: it can do without curves
 };
 
+/// A place (working coordinates) where edges are to be no longer than `length`.
+struct FinePlace {
+  Vec3 at;
+  double length = 0;
+};
+
 /// Curves, corners and the share of each curve and patch of `vertices`. Throws TooFewVertices.
-FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options);
+FeaturePlan plan_features(const Part& part, Index vertices, const RemeshOptions& options,
+                          const std::vector<FinePlace>& fine = {});
 
 }  // namespace nonobtuse::pipeline

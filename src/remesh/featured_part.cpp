@@ -12,6 +12,7 @@
 #include "nonobtuse/error.h"
 #include "rdt/delaunay_flips.h"
 #include "rdt/vertex_reduction.h"
+#include "refine/angle_goal.h"
 #include "remesh/edge_parting.h"
 #include "remesh/initial_sampling.h"
 #include "remesh/patch_meshing.h"
@@ -26,6 +27,11 @@ namespace {
 
 constexpr double kSnap = 0.02;      // of an edge length
 constexpr double kLeastAngle = 30;  // of the promise, degrees
+// Parts in which few angles miss the promise are meshed again, if that does not take long.
+constexpr int kAttempts = 2;
+constexpr std::size_t kMostBroken = 40;
+constexpr Index kMostVerticesAgain = 20000;
+constexpr double kFiner = 0.6;  // of the longest edge of a triangle that breaks it
 constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 
 // Every second knot along every curve, and all that are fixed.
@@ -250,11 +256,63 @@ class FeaturedPart {
   std::vector<Index> foot_;
 };
 
+// Triangles that break the promise and touch no narrow corner.
+std::vector<Index> broken_triangles(const GluedMesh& glued) {
+  std::vector<char> narrow(glued.mesh.vertices.size(), 0);
+  for (const NarrowCorner& corner : glued.narrow_corners) narrow[corner.vertex] = 1;
+  const refine::AngleTest promise({kLeastAngle, 90});
+  std::vector<Index> broken;
+  for (std::size_t t = 0; t < glued.mesh.triangles.size(); ++t) {
+    const Triangle& v = glued.mesh.triangles[t];
+    const std::vector<Vec3>& x = glued.mesh.vertices;
+    if (narrow[v[0]] == 0 && narrow[v[1]] == 0 && narrow[v[2]] == 0 &&
+        !promise.inside(x[v[0]], x[v[1]], x[v[2]]))
+      broken.push_back(static_cast<Index>(t));
+  }
+  return broken;
+}
+
+std::vector<FinePlace> fine_places(const TriangleMesh& mesh, const std::vector<Index>& triangles) {
+  std::vector<FinePlace> places;
+  for (const Index t : triangles) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const std::vector<Vec3>& x = mesh.vertices;
+    const double longest =
+        std::max({distance(x[a], x[b]), distance(x[b], x[c]), distance(x[c], x[a])});
+    places.push_back({(x[a] + x[b] + x[c]) / 3.0, kFiner * longest});
+  }
+  return places;
+}
+
 }  // namespace
 
-GluedMesh remesh_features(const FeaturePlan& plan, Index vertices, const RemeshOptions& options,
-                          const parallel::Workers& workers, StageClock& clock) {
-  return FeaturedPart(plan, vertices, options, workers, clock).run();
+GluedMesh remesh_features(const Part& part, const FeaturePlan& plan, Index vertices,
+                          const RemeshOptions& options, const parallel::Workers& workers,
+                          StageClock& clock) {
+  GluedMesh best = FeaturedPart(plan, vertices, options, workers, clock).run();
+  if (best.mesh.triangles.empty() || vertices > kMostVerticesAgain) return best;
+  std::vector<Index> broken = broken_triangles(best);
+  std::vector<FinePlace> fine = fine_places(best.mesh, broken);
+  for (int attempt = 0; attempt < kAttempts && !broken.empty() && broken.size() <= kMostBroken;
+       ++attempt) {
+    if (clock.monitor().cancelled()) break;
+    GluedMesh next;
+    try {
+      const FeaturePlan finer = clock.run(
+          "features", 0, 0.02, [&] { return plan_features(part, vertices, options, fine); });
+      next = FeaturedPart(finer, vertices, options, workers, clock).run();
+    } catch (const TooFewVertices&) {
+      break;
+    }
+    if (next.mesh.triangles.empty() || clock.monitor().cancelled()) break;
+    std::vector<Index> left = broken_triangles(next);
+    const std::vector<FinePlace> places = fine_places(next.mesh, left);
+    fine.insert(fine.end(), places.begin(), places.end());
+    if (left.size() >= broken.size()) continue;
+    best = std::move(next);
+    broken = std::move(left);
+  }
+  return best;
 }
 
 }  // namespace nonobtuse::pipeline

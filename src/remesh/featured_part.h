@@ -24,8 +24,10 @@ struct GluedMesh {
 };
 
 /// Throws TooFewVertices where the topology needs more. Empty where the vertices are too few to
-/// keep the features of a manifold apart: it is then to be meshed without them.
-GluedMesh remesh_features(const FeaturePlan& plan, Index vertices, const RemeshOptions& options,
-                          const parallel::Workers& workers, StageClock& clock);
+/// keep the features of a manifold apart: it is then to be meshed without them. Where a few angles
+/// miss the promise, the part is planned again with shorter edges there, and meshed anew.
+GluedMesh remesh_features(const Part& part, const FeaturePlan& plan, Index vertices,
+                          const RemeshOptions& options, const parallel::Workers& workers,
+                          StageClock& clock);
 
 }  // namespace nonobtuse::pipeline

@@ -31,6 +31,9 @@ constexpr int kStepsIfSettled = 10;
 constexpr double kFidelity = 20;  // weight at the start
 constexpr double kLeastFidelity = 6;
 constexpr double kMostFidelity = 40;
+// Weight of the circumcentres where the least fidelity leaves too little shape.
+constexpr double kMostCircumcentre = 8;
+constexpr int kStiffBlocks = 2;
 // Q_avg aimed at by the weight, for fewer and for more than 10000 vertices.
 constexpr double kMeanQuality = 0.9465;
 constexpr double kMeanQualityLarge = 0.9425;
@@ -43,6 +46,9 @@ constexpr double kMendingLeash = 0.2;
 // Budget of the trials beside creases and boundaries.
 constexpr std::int64_t kTrialWork = 40000;
 constexpr std::int64_t kTrialWorkPerVertex = 100;
+// Larger meshes get no more than this many vertices': where so many places resist, they would
+// take minutes and mend few.
+constexpr Index kMostTrialVertices = 10000;
 
 class Refinement {
  public:
@@ -71,26 +77,35 @@ class Refinement {
   Index run() {
     const double lo = options_.min_angle, hi = options_.max_angle;
     // First wide open, so that shape and fidelity find their balance; then two degrees inside.
-    descend(options_.settled ? kStepsIfSettled : kStepsToSettle,
-            energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5)), 0, 0.3);
-    const energy::ShapeWeights inside = energy::hinged(20, lo + 2, hi - 2);
+    energy::ShapeWeights shape = energy::hinged(10, std::min(35.0, lo - 5), std::max(86.0, hi + 5));
+    descend(options_.settled ? kStepsIfSettled : kStepsToSettle, shape, 0, 0.25);
+    adapt_weights();
+    for (int block = 0; block < kStiffBlocks && circumcentre_ > 1; ++block) {
+      shape.circumcentre = circumcentre_;
+      descend(kStepsIfSettled, shape, 0.25, 0.3);
+      adapt_weights();
+    }
+    shape = energy::hinged(20, lo + 2, hi - 2);
     // Beside creases the connectivity is less free, and vertices would rather leave the surface.
     if (!fidelity_.knots.empty()) fidelity_.leash = kLeash;
     for (int round = 0; round < 3; ++round) {
       if (monitor_.cancelled()) return outside_goal({lo, hi});
       const double far = kFarFactor * std::sqrt(fidelity_.mean_square(mesh_));
-      fidelity_.emphasize_far_points(mesh_, 2 * far, kFarGrowth);
+      fidelity_.emphasize_far_points(mesh_, circumcentre_ > 1 ? far : 2 * far, kFarGrowth);
       fidelity_.emphasize_far_ridges(mesh_, far, kFarWeight, kFarGrowth, workers_);
-      adapt_weights();
-      descend(8, inside, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
+      if (round > 0) adapt_weights();
+      shape.circumcentre = circumcentre_;
+      descend(8, shape, 0.3 + 0.15 * round, 0.45 + 0.15 * round);
     }
     const refine::AngleGoal goal{lo, hi};
     if (monitor_.cancelled()) return outside_goal(goal);
     refine::TrialOptions local;
     local.goal = goal;
     local.shape = energy::hinged(100, lo + 1, hi - 1);
+    local.shape.circumcentre = circumcentre_;
     local.on_surface = options_.on_surface;
-    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh_.vertex_count());
+    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex *
+                                                std::min(mesh_.vertex_count(), kMostTrialVertices));
     budget.places.emplace();
     if (!fidelity_.knots.empty()) local.budget = &budget;
     Index outside = mend_and_sweep(local);
@@ -113,7 +128,7 @@ class Refinement {
     fidelity_.leash = leash;
     return refine::sweep_angles(
         mesh_, fidelity_, local.goal, options_.on_surface, workers_,
-        [&](double f) { return tick(0.75 + 0.15 * f); }, local.budget);
+        [&](double f) { return tick(0.75 + 0.15 * f); }, local.budget, circumcentre_);
   }
 
   // Sheets apart, folds undone, largest distances lowered; beside creases not at the cost of the
@@ -146,11 +161,12 @@ class Refinement {
     if (outside_promise() == 0) return;
     const refine::AngleGoal least{std::min(options_.min_angle, refine::kPromise.smallest + 1),
                                   std::max(options_.max_angle, refine::kPromise.largest - 1)};
-    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 * mesh_.vertex_count());
+    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 *
+                                                std::min(mesh_.vertex_count(), kMostTrialVertices));
     budget.places.emplace();
     refine::sweep_angles(
         mesh_, fidelity_, least, options_.on_surface, workers_,
-        [&](double f) { return tick(0.85 + 0.05 * f); }, &budget);
+        [&](double f) { return tick(0.85 + 0.05 * f); }, &budget, circumcentre_);
   }
 
   bool tick(double fraction) {
@@ -180,8 +196,14 @@ class Refinement {
     // exp(x) in Pade's form: libm's own bits differ from system to system.
     const double x = std::clamp(150 * excess, -3.0, 3.0);
     const double factor = (12 + 6 * x + x * x) / (12 - 6 * x + x * x);
-    const double weight =
-        std::clamp(fidelity_.weights.to_mesh * factor, kLeastFidelity, kMostFidelity);
+    // Below the least fidelity distances would grow faster than shape improves. Instead stiffer
+    // triangles take from the cells their equal sizes, which nothing here depends on.
+    const bool stiffens = fidelity_.size.uniform() && fidelity_.knots.empty();
+    const double balance =
+        std::clamp(fidelity_.weights.to_mesh / circumcentre_ * factor,
+                   stiffens ? kLeastFidelity / kMostCircumcentre : kLeastFidelity, kMostFidelity);
+    const double weight = std::max(balance, kLeastFidelity);
+    circumcentre_ = weight / balance;
     fidelity_.weights.to_mesh = weight;
     if (!options_.on_surface) fidelity_.weights.to_surface = weight;
   }
@@ -213,7 +235,8 @@ class Refinement {
   parallel::Monitor& monitor_;
   refine::Fidelity fidelity_;
   refine::GlobalDescent descent_;
-  int done_ = 0;  // iterations of the descents so far
+  double circumcentre_ = 1;  // weight of the triangles' shape beside that of the cells
+  int done_ = 0;             // iterations of the descents so far
 };
 
 }  // namespace

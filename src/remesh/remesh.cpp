@@ -15,6 +15,7 @@
 #include "parallel/workers.h"
 #include "remesh/certification.h"
 #include "remesh/cvt_optimization.h"
+#include "remesh/dislocation_annealing.h"
 #include "remesh/error_bound.h"
 #include "remesh/extraction.h"
 #include "remesh/featured_part.h"
@@ -60,7 +61,7 @@ std::vector<Vec3> paper_stages(const mesh::Surface& surface, std::vector<Vec3> s
 }
 
 struct StartingMesh {
-  mesh::EditableMesh mesh;
+  pipeline::MeshOnSurface tessellation;
   bool settled = false;  // in its own shape energy
 };
 
@@ -78,12 +79,12 @@ StartingMesh starting_mesh(const mesh::Surface& surface, Index n, const RemeshOp
     cvt.start = std::move(first.coarse_sites);
     return pipeline::optimize_cvt(surface, cvt, workers, monitor);
   });
-  if (sites.empty()) return {std::move(first.tessellation.mesh), true};
+  if (sites.empty()) return {std::move(first.tessellation), true};
   sites = paper_stages(surface, std::move(sites), options, workers, clock);
   pipeline::Extraction extraction = clock.run("extraction", 0.4, 0.5, [&] {
     return pipeline::extract(surface, std::move(sites), workers, monitor);
   });
-  return {std::move(extraction.mesh), false};
+  return {{std::move(extraction.mesh), std::move(extraction.foot)}, false};
 }
 
 // The pipeline on one connected surface, with n vertices. `bvh` becomes the surface's.
@@ -92,13 +93,17 @@ mesh::EditableMesh remesh_part(const mesh::Surface& surface, spatial::TriangleBv
                                pipeline::StageClock& clock) {
   parallel::Monitor& monitor = clock.monitor();
   StartingMesh start = starting_mesh(surface, n, options, workers, clock);
-  mesh::EditableMesh& mesh = start.mesh;
+  mesh::EditableMesh& mesh = start.tessellation.mesh;
   // Not earlier: the tessellation takes most of the memory.
   bvh = spatial::TriangleBvh(surface.vertices, surface.triangles, workers);
   // After a cancellation what there is goes out at once.
   if (options.method != Method::Default || monitor.cancelled()) return std::move(mesh);
-  clock.run("valence", 0.5, 0.55,
-            [&] { return pipeline::optimize_valence(surface, bvh, mesh, workers, monitor); });
+  clock.run("valence", 0.5, 0.55, [&] {
+    if (pipeline::is_coarse(surface, start.tessellation))
+      pipeline::anneal_dislocations(surface, start.tessellation, options.seed,
+                                    [&](double f) { return monitor.tick(0.5 * f); });
+    return pipeline::optimize_valence(surface, bvh, mesh, workers, monitor);
+  });
   clock.run("refinement", 0.55, 1, [&] {
     pipeline::RefinementOptions refinement = pipeline::refinement_options(options);
     refinement.settled = start.settled;
@@ -122,7 +127,8 @@ std::optional<pipeline::FeaturePlan> plan_part(const pipeline::Part& part, Index
 bool remesh_featured(const pipeline::Part& part, const pipeline::FeaturePlan& plan, Index n,
                      const RemeshOptions& options, const parallel::Workers& workers,
                      pipeline::StageClock& clock, RemeshResult& result) {
-  const pipeline::GluedMesh mesh = pipeline::remesh_features(plan, n, options, workers, clock);
+  const pipeline::GluedMesh mesh =
+      pipeline::remesh_features(part, plan, n, options, workers, clock);
   if (!mesh.mesh.triangles.empty()) {
     pipeline::append_part(part, plan.input, mesh, workers, result);
     return true;
