@@ -1,6 +1,7 @@
 // Read, clean, remesh, certify what will be in the file, write, report.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -175,8 +176,12 @@ Json full_report(const RemeshCommand& command, const Outcome& outcome, int code)
 void print_narrow_corners(const Outcome& outcome) {
   const std::vector<NarrowCorner>& corners = outcome.result.narrow_corners;
   if (corners.empty()) return;
-  fmt::print("{} of the input have a face angle below 30 degrees, which any mesh keeps:\n",
-             corners.size() == 1 ? "1 corner" : fmt::format("{} corners", corners.size()));
+  const bool narrow = std::all_of(corners.begin(), corners.end(),
+                                  [](const NarrowCorner& c) { return c.input_angle < 30; });
+  fmt::print("{} of the input {}, which any mesh keeps:\n",
+             corners.size() == 1 ? "1 corner" : fmt::format("{} corners", corners.size()),
+             narrow ? "have a face angle below 30 degrees"
+                    : "leave no room between the edges of the boundary for angles in [30, 90)");
   for (std::size_t i = 0; i < corners.size() && i < kTrianglesNamed; ++i) {
     const Vec3& p = outcome.written.vertices[corners[i].vertex];
     fmt::print("  vertex {} at ({:.6g}, {:.6g}, {:.6g}): {:.4f} in the input, {:.4f} reached\n",

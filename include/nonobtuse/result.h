@@ -43,7 +43,9 @@ struct SizeRatio {
 };
 
 /// A corner of the input at which two feature edges bound a face under less than 30 degrees: some
-/// angle of the result there is as small, whatever is done.
+/// angle of the result there is as small, whatever is done. With Boundary::Freeze also a vertex of
+/// the boundary at which the lengths of its two edges, or another vertex of the boundary that is
+/// too near, leave no room for triangles inside [30, 90).
 struct NarrowCorner {
   Index vertex = -1;         ///< of the result; it is where the input's corner is
   double input_angle = 0;    ///< between the feature edges, on the face, degrees

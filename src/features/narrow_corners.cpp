@@ -66,6 +66,7 @@ class CornerSettler {
       const FeatureCurve& curve = graph_.curves[c];
       if (curve.closed) continue;
       const auto last = curve.vertices.size() - 1;
+      ++curves_between_[ends_of(curve)];
       end_at[{curve.vertices[0], curve.vertices[1]}] = {static_cast<Index>(c), false};
       end_at[{curve.vertices[last], curve.vertices[last - 1]}] = {static_cast<Index>(c), true};
     }
@@ -119,7 +120,8 @@ class CornerSettler {
     return graph_.curves[e.curve].vertices.size() - 1;
   }
 
-  // How far the curve leads away from its corner before it comes back or ends; `whole` if it ends.
+  // How far the curve leads away from its corner before it comes back or ends; `whole` if it ends,
+  // in a corner to which no other curve leads: two edges between the same vertices would be one.
   [[nodiscard]] double room(const CurveEnd& e, bool& whole) const {
     double far = 0;
     for (std::size_t i = 1; i <= last(e); ++i) {
@@ -131,7 +133,11 @@ class CornerSettler {
       }
       far = d;
     }
+    if (whole) whole = curves_between_.at(ends_of(graph_.curves[e.curve])) == 1;
     return far;
+  }
+  [[nodiscard]] static std::pair<Index, Index> ends_of(const FeatureCurve& curve) {
+    return std::minmax({curve.vertices.front(), curve.vertices.back()});
   }
 
   // Whether a triangle may have its other corners where the knots will be: they slide, but where
@@ -227,6 +233,7 @@ class CornerSettler {
   FeatureGraph& graph_;
   double reach_;
   const std::vector<char>& held_;
+  std::map<std::pair<Index, Index>, Index> curves_between_;
   std::map<Index, std::vector<CurveEnd>> narrow_;
   std::vector<EdgeVertex> inserted_;
 };

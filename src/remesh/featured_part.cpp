@@ -18,6 +18,7 @@
 #include "remesh/patch_meshing.h"
 #include "remesh/refinement.h"
 #include "remesh/request.h"
+#include "remesh/unavoidable_corners.h"
 #include "remesh/valence_optimization.h"
 #include "spatial/triangle_bvh.h"
 
@@ -32,7 +33,6 @@ constexpr int kAttempts = 2;
 constexpr std::size_t kMostBroken = 40;
 constexpr Index kMostVerticesAgain = 20000;
 constexpr double kFiner = 0.6;  // of the longest edge of a triangle that breaks it
-constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 
 // Every second knot along every curve, and all that are fixed.
 std::vector<char> coarse_knots(const mesh::CurveNetwork& network) {
@@ -218,30 +218,17 @@ class FeaturedPart {
         glued.feature_edges.push_back({std::min(a, b), std::max(a, b)});
       }
     }
-    glued.narrow_corners = narrow_corners(of_knot);
+    glued.narrow_corners = narrow_sectors(cut_, network_);
+    if (options_.boundary == Boundary::Freeze)
+      for (const NarrowCorner& c : frozen_corners(mesh_, network_))
+        if (std::none_of(glued.narrow_corners.begin(), glued.narrow_corners.end(),
+                         [&](const NarrowCorner& other) { return other.vertex == c.vertex; }))
+          glued.narrow_corners.push_back(c);
+    for (NarrowCorner& c : glued.narrow_corners) c.vertex = of_knot[c.vertex];
     std::sort(glued.feature_edges.begin(), glued.feature_edges.end());
     glued.feature_edges.erase(std::unique(glued.feature_edges.begin(), glued.feature_edges.end()),
                               glued.feature_edges.end());
     return glued;
-  }
-
-  // Sectors of the surface at fixed knots with a face angle below the promise.
-  [[nodiscard]] std::vector<NarrowCorner> narrow_corners(const std::vector<Index>& of_knot) const {
-    std::vector<double> angle(cut_.knot.size(), 0);
-    for (const Triangle& t : cut_.surface.triangles)
-      for (int k = 0; k < 3; ++k) {
-        if (cut_.knot[t[k]] < 0) continue;
-        const Vec3 a = cut_.surface.vertices[t[mesh::next(k)]] - cut_.surface.vertices[t[k]];
-        const Vec3 b = cut_.surface.vertices[t[mesh::previous(k)]] - cut_.surface.vertices[t[k]];
-        angle[t[k]] += std::atan2(length(cross(a, b)), dot(a, b)) * kDegreesPerRadian;
-      }
-    std::vector<NarrowCorner> corners;
-    for (std::size_t v = 0; v < angle.size(); ++v) {
-      const Index k = cut_.knot[v];
-      if (k >= 0 && network_.knots[k].curve < 0 && angle[v] < kLeastAngle)
-        corners.push_back({of_knot[k], angle[v], 0});
-    }
-    return corners;
   }
 
   const FeaturePlan& plan_;
