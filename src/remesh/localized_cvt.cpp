@@ -21,6 +21,7 @@ constexpr int kStepsIfFew = 3;      // where less than one cell in a thousand re
 constexpr int kStepsPerRepair = 4;  // between two relocations
 constexpr int kPatience = 12;       // steps without fewer defects: repairs chase each other
 constexpr std::size_t kCellsPerDefect = 100;  // fewer: the surface is crumpled everywhere
+constexpr std::size_t kManySites = 10000;     // every step takes seconds
 constexpr double kRelaxation = 1.5;
 
 void lloyd_step(const mesh::Surface& surface, const SiteCells& cells, const rvd::CellSums& sums,
@@ -168,9 +169,9 @@ void localize_sites(const mesh::Surface& surface, std::vector<Vec3>& sites, Site
       }
     }
     cells = site_cells(surface, sites, workers);
-    // On a crumpled patch repairs only chase each other.
-    if (!fixed.empty() && relocated && cells.defects.size() >= fewest &&
-        cells.defects.size() * kCellsPerDefect > sites.size())
+    // On a large crumpled patch repairs only chase each other.
+    if (!fixed.empty() && sites.size() > kManySites && relocated &&
+        cells.defects.size() >= fewest && cells.defects.size() * kCellsPerDefect > sites.size())
       return;
     if (cells.defects.size() < fewest) {
       fewest = cells.defects.size();

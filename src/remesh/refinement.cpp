@@ -106,7 +106,7 @@ class Refinement {
     local.on_surface = options_.on_surface;
     refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex *
                                                 std::min(mesh_.vertex_count(), kMostTrialVertices));
-    budget.places.emplace();
+    if (mesh_.vertex_count() > kMostTrialVertices) budget.places.emplace();
     if (!fidelity_.knots.empty()) local.budget = &budget;
     Index outside = mend_and_sweep(local);
     // Beside creases a second attempt finds a mesh in better order.
@@ -163,7 +163,7 @@ class Refinement {
                                   std::max(options_.max_angle, refine::kPromise.largest - 1)};
     refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 *
                                                 std::min(mesh_.vertex_count(), kMostTrialVertices));
-    budget.places.emplace();
+    if (mesh_.vertex_count() > kMostTrialVertices) budget.places.emplace();
     refine::sweep_angles(
         mesh_, fidelity_, least, options_.on_surface, workers_,
         [&](double f) { return tick(0.85 + 0.05 * f); }, &budget, circumcentre_);

@@ -44,7 +44,7 @@ Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh&
   options.goal = {35, 86};
   refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex *
                                               std::min(mesh.vertex_count(), kMostTrialVertices));
-  budget.places.emplace();
+  if (mesh.vertex_count() > kMostTrialVertices) budget.places.emplace();
   if (curves) options.budget = &budget;
   double attempts = 0;
   const Index left = refine::mend_valences(mesh, fidelity, options, false, workers, [&] {
