@@ -25,7 +25,7 @@ constexpr int kAttempts = 24;      // places
 constexpr int kClusterRounds = 12;
 constexpr int kClusterRings = 3;
 // Vertices moved, once in every pass, for all places together.
-constexpr std::int64_t kEffort = 30000;
+constexpr std::int64_t kEffort = 26000;
 constexpr double kInOrder = 5.5;    // largest distance to be content with, in root mean squares
 constexpr double kLittle = 0.8;     // distances below this part of what is in order do not count
 constexpr double kNear = 0.6;       // nor do those below this part of the largest
@@ -71,7 +71,7 @@ class DistanceMender {
       Patch patch = patch_around(clusters[i], kClusterRings - 1);
       const double largest = largest_distance(patch.mesh, patch.fidelity, options.far);
       options.far = std::max(options.far, kNear * largest);
-      MinimaxRelaxation relaxation(patch, options, largest);
+      MinimaxRelaxation relaxation(patch, options, score(patch, options));
       relaxed[i].emplace(Relaxed{std::move(patch), std::move(relaxation)});
       relaxed[i]->after.run(kClusterRounds);
     });

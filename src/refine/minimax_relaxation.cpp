@@ -20,8 +20,12 @@ constexpr double kOutside = 0.02;  // of the distance, that a triangle outside t
 
 }  // namespace
 
-MinimaxRelaxation::MinimaxRelaxation(Patch patch, const TrialOptions& options, double largest)
-    : patch_(std::move(patch)), options_(options), least_distance_(largest) {
+MinimaxRelaxation::MinimaxRelaxation(Patch patch, const TrialOptions& options,
+                                     const PatchScore& allowed)
+    : patch_(std::move(patch)),
+      options_(options),
+      allowed_(allowed),
+      least_distance_(allowed.distance) {
   best_score.folded = std::numeric_limits<Index>::max();
   weights_.resize(weight_count(patch_.fidelity));
   for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = weight(patch_.fidelity, i);
@@ -54,6 +58,9 @@ void MinimaxRelaxation::run(int rounds) {
     now.distance = far;
     for (const FarWeight& p : points_) now.distance = std::max(now.distance, p.distance);
     least_distance_ = std::min(least_distance_, now.distance);
+    now.folded = std::max(now.folded, allowed_.folded);
+    now.bad_valence = std::max(now.bad_valence, allowed_.bad_valence);
+    now.outside_promise = std::max(now.outside_promise, allowed_.outside_promise);
     if (now < best_score) best = patch_, best_score = now;
     if (now.outside_goal == 0 && now.distance <= options_.far) break;
     hinge = now.outside_goal > 0 ? kHingeGrowth * hinge : std::max(1.0, hinge / kHingeDecay);

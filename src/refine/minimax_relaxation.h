@@ -11,9 +11,9 @@ namespace nonobtuse::refine {
 
 class MinimaxRelaxation {
  public:
-  /// `largest`: the largest distance to begin with, or of what the patch competes with; distances
-  /// below options.far do not count.
-  MinimaxRelaxation(Patch patch, const TrialOptions& options, double largest);
+  /// `allowed`: of what the patch competes with; to be better than that in folds, valences and the
+  /// promised angles is worth nothing. Distances below options.far do not count.
+  MinimaxRelaxation(Patch patch, const TrialOptions& options, const PatchScore& allowed);
 
   /// A few passes each, with new weights before. Ends early where nothing is left to do.
   void run(int rounds);
@@ -35,6 +35,7 @@ class MinimaxRelaxation {
 
   Patch patch_;
   TrialOptions options_;
+  PatchScore allowed_;
   std::vector<double> weights_;    // of the fidelity at the beginning
   std::vector<double> emphasis_;   // their factors
   std::vector<FarWeight> points_;  // far now

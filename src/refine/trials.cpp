@@ -54,7 +54,7 @@ std::optional<Patch> best_of_far(const Patch& patch,
                                  const std::vector<std::vector<Edit>>& sequences,
                                  const TrialOptions& options, const parallel::Workers& workers,
                                  PatchScore& best_score) {
-  const double before = largest_distance(patch.mesh, patch.fidelity, options.far);
+  const PatchScore before = score(patch, options);
   std::vector<std::optional<MinimaxRelaxation>> trials(sequences.size());
   workers.for_each(trials.size(), 1, [&](std::size_t i) {
     std::optional<Patch> trial = edited(patch, sequences[i]);
@@ -69,7 +69,7 @@ std::optional<Patch> best_of_far(const Patch& patch,
   const std::ptrdiff_t finalists = std::min(std::ssize(trials), kFinalists);
   workers.for_each(static_cast<std::size_t>(finalists), 1, [&](std::size_t i) {
     trials[i]->run(kSomeRounds);
-    if (trials[i]->least_distance() < before) trials[i]->run(kRounds - kSomeRounds);
+    if (trials[i]->least_distance() < before.distance) trials[i]->run(kRounds - kSomeRounds);
   });
   if (options.budget)
     for (const auto& t : trials) options.budget->spend(t->effort());

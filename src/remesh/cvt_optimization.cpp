@@ -9,6 +9,7 @@
 #include "energy/cvt.h"
 #include "optimize/lbfgs.h"
 #include "remesh/initial_sampling.h"
+#include "remesh/mass_balance.h"
 #include "remesh/restricted_diagram.h"
 #include "spatial/hilbert_order.h"
 
@@ -20,6 +21,7 @@ constexpr int kPairs = 7;
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kBacktracks = 5;
 constexpr Index kFewestToQuarter = 64;
+constexpr int kEvaluationsBeforeBalance = 3;
 
 // A point of the descent with all that is known there.
 struct Iterate {
@@ -198,13 +200,13 @@ void insert_midpoints(const mesh::Surface& surface, const Components& components
 }
 
 bool is_started(const CvtOptions& options, const std::vector<Index>& quota) {
-  return quota.size() == 1 && static_cast<Index>(options.start.size()) == quota[0];
+  return quota.size() == 1 && static_cast<Index>(options.start.sites.size()) == quota[0];
 }
 
 Sites first_sites(const mesh::Surface& surface, const Components& components,
                   const std::vector<Index>& quota, const CvtOptions& options) {
   if (is_started(options, quota))
-    return {options.start, std::vector<Index>(options.start.size(), 0)};
+    return {options.start.sites, std::vector<Index>(options.start.sites.size(), 0)};
   SampledSites samples = sample_strata(surface, components, quota, options.seed);
   return {std::move(samples.points), std::move(samples.component)};
 }
@@ -223,7 +225,53 @@ void record(const mesh::Surface& surface, const DescentState& state,
   monitor.record(state.evaluations - 1, state.energy, bad.obtuse, bad.small);
 }
 
+// One level: how far to descend, and what of the progress it is.
+struct Level {
+  int evaluations;
+  double tolerance;
+  bool recorded;
+  double from, to;
+};
+
+double descend(const mesh::Surface& surface, rvd::CellEvaluator& evaluator,
+               std::vector<Vec3>& sites, const Level& level, const parallel::Workers& workers,
+               parallel::Monitor& monitor) {
+  int made = 1;
+  const double energy =
+      minimize_cvt(evaluator, sites, level.evaluations, level.tolerance, workers,
+                   [&](const DescentState& state) {
+                     made = state.evaluations + 1;
+                     if (level.recorded && is_recorded(state.evaluations - 1))
+                       record(surface, state, workers, monitor);
+                     return monitor.tick(level.from + (level.to - level.from) * state.evaluations /
+                                                          std::max(level.evaluations, 1));
+                   });
+  if (level.recorded) record(surface, {made, energy, sites}, workers, monitor);
+  return energy;
+}
+
+// Pairs of sites whose cells touch, whatever was tried last.
+std::vector<std::array<Index, 2>> adjacent_sites(rvd::CellEvaluator& evaluator,
+                                                 const std::vector<Vec3>& sites) {
+  rvd::CellIntegrals cells;
+  evaluator.evaluate(sites, cells);
+  return evaluator.adjacent_cells();
+}
+
 }  // namespace
+
+TouchingSites optimize_level(const mesh::Surface& surface, const CvtOptions& options,
+                             const parallel::Workers& workers, parallel::Monitor& monitor) {
+  const Components components = connected_components(surface);
+  Sites sites = first_sites(surface, components, share_sites(components, options.sites), options);
+  TouchingSites result{std::move(sites.points)};
+  if (monitor.cancelled()) return result;
+  rvd::CellEvaluator evaluator(surface, static_cast<Index>(result.sites.size()), workers);
+  descend(surface, evaluator, result.sites,
+          {options.iterations, options.tolerance, options.recorded, 0, 1}, workers, monitor);
+  if (!monitor.cancelled()) result.adjacent = adjacent_sites(evaluator, result.sites);
+  return result;
+}
 
 std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& options,
                                const parallel::Workers& workers, parallel::Monitor& monitor) {
@@ -234,35 +282,40 @@ std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& o
     if (coarse == quotas.back()) break;
     quotas.push_back(std::move(coarse));
   }
-  const auto levels = static_cast<double>(quotas.size());
-  const double total = options.iterations + options.coarse_iterations * (levels - 1);
+  const double total =
+      std::max(1.0, options.iterations +
+                        options.coarse_iterations * (static_cast<double>(quotas.size()) - 1));
   double done = 0;
 
   Sites sites = first_sites(surface, components, quotas.back(), options);
-  for (std::size_t level = quotas.size(); level-- > 0;) {
+  std::size_t level = quotas.size();
+  if (level > 1 && is_started(options, quotas.back()) && !options.start.adjacent.empty()) {
+    done += options.coarse_iterations / total;
+    level -= 1;
+    insert_midpoints(surface, components, quotas[level - 1], options.seed, options.start.adjacent,
+                     sites);
+  }
+  while (level-- > 0) {
     rvd::CellEvaluator evaluator(surface, static_cast<Index>(sites.points.size()), workers);
     const int evaluations = level == 0 ? options.iterations : options.coarse_iterations;
-    const bool made_before = level + 1 == quotas.size() && is_started(options, quotas.back());
-    if (!monitor.cancelled() && !made_before) {
-      int made = 1;
-      const double energy =
-          minimize_cvt(evaluator, sites.points, evaluations,
-                       level == 0 ? options.tolerance : options.coarse_tolerance, workers,
-                       [&](const DescentState& state) {
-                         made = state.evaluations + 1;
-                         if (options.recorded && level == 0 && is_recorded(state.evaluations - 1))
-                           record(surface, state, workers, monitor);
-                         return monitor.tick((done + state.evaluations) / std::max(total, 1.0));
-                       });
-      if (options.recorded && level == 0)
-        record(surface, {made, energy, sites.points}, workers, monitor);
+    const double share = evaluations / total;
+    if (options.balanced && level + 1 < quotas.size() && surface.size.empty() &&
+        !monitor.cancelled()) {
+      // Midpoints of edges come too few where coarse cells reached around a finger.
+      balance_masses(evaluator, sites.component, sites.points);
+      minimize_cvt(evaluator, sites.points, kEvaluationsBeforeBalance, 0, workers,
+                   [&](const DescentState&) { return monitor.tick(done); });
+      balance_masses(evaluator, sites.component, sites.points);
     }
-    done += evaluations;
-    if (level == 0) break;
-    rvd::CellIntegrals cells;  // adjacency of the sites kept, whatever was tried last
-    evaluator.evaluate(sites.points, cells);
-    insert_midpoints(surface, components, quotas[level - 1], options.seed,
-                     evaluator.adjacent_cells(), sites);
+    if (!monitor.cancelled())
+      descend(surface, evaluator, sites.points,
+              {evaluations, level == 0 ? options.tolerance : options.coarse_tolerance,
+               options.recorded && level == 0, done, done + share},
+              workers, monitor);
+    done += share;
+    if (level > 0)
+      insert_midpoints(surface, components, quotas[level - 1], options.seed,
+                       adjacent_sites(evaluator, sites.points), sites);
   }
   return std::move(sites.points);
 }

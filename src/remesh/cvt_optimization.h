@@ -4,6 +4,7 @@
 // irregular vertices, where a random start at full size leaves hundreds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -15,6 +16,12 @@
 #include "rvd/cell_integrals.h"
 
 namespace nonobtuse::pipeline {
+
+/// Sites with the pairs of those whose cells touch.
+struct TouchingSites {
+  std::vector<Vec3> sites;                       ///< #X by 3
+  std::vector<std::array<Index, 2>> adjacent{};  ///< i < j, sorted
+};
 
 struct CvtOptions {
   Index sites = 0;  ///< exactly this many, >= 1
@@ -31,7 +38,10 @@ struct CvtOptions {
   int coarse_levels = 1;
   /// For a surface of one component the sites of the coarsest level, optimised already, if that is
   /// as many as are wanted there; else they are sampled.
-  std::vector<Vec3> start{};
+  TouchingSites start{};
+  /// Whether sites move from light cells into heavy ones before a level that comes of a coarser
+  /// one.
+  bool balanced = false;
   bool recorded = true;  ///< whether the iterations with all sites go into the history
 };
 
@@ -41,6 +51,12 @@ struct CvtOptions {
 /// number of sites, as far as they came. Working coordinates. Same bits for any number of threads.
 std::vector<Vec3> optimize_cvt(const mesh::Surface& surface, const CvtOptions& options,
                                const parallel::Workers& workers, parallel::Monitor& monitor);
+
+/// The sites on one level alone, without a coarser one, and which cells touch: three pairs per
+/// site, less three times the Euler characteristic, where a closed surface has cells that are discs
+/// and meet once. After a cancellation there may be no pairs.
+TouchingSites optimize_level(const mesh::Surface& surface, const CvtOptions& options,
+                             const parallel::Workers& workers, parallel::Monitor& monitor);
 
 /// Evaluations between two looks at the energy by which a descent ends early.
 inline constexpr int kStride = 5;

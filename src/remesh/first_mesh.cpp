@@ -65,13 +65,14 @@ FirstMesh first_mesh(const mesh::Surface& surface, const CvtOptions& options,
   of_coarse.sites = coarse;
   of_coarse.iterations = options.coarse_iterations;
   of_coarse.tolerance = options.coarse_tolerance;
-  of_coarse.coarse_levels = 0;
   of_coarse.recorded = false;
-  result.coarse_sites = optimize_cvt(surface, of_coarse, workers, monitor);
+  result.coarse = optimize_level(surface, of_coarse, workers, monitor);
   if (monitor.cancelled()) return result;
-  SiteCells cells = site_cells(surface, result.coarse_sites, workers);
+  // The edges of a triangulation; what is none is seen at once and cheaply this way.
+  if (std::ssize(result.coarse.adjacent) != 3 * (coarse - components.euler[0])) return result;
+  SiteCells cells = site_cells(surface, result.coarse.sites, workers);
   if (!cells.defects.empty() || cells.localized.orphans > 0) return result;
-  MeshOnSurface t{mesh::EditableMesh(result.coarse_sites, std::move(cells.triangles)),
+  MeshOnSurface t{mesh::EditableMesh(result.coarse.sites, std::move(cells.triangles)),
                   std::move(cells.feet)};
   if (largest_area_ratio(surface, t, workers) > kMostAreaRatio) return result;
   minimize_on_mesh(surface, t, kCoarse, workers, [&] { return monitor.tick(1); });

@@ -18,7 +18,7 @@ struct FirstMesh {
   /// there is no such mesh, or where it turns against the surface.
   MeshOnSurface tessellation;
   /// In the latter cases the coarse sites, as a start for `optimize_cvt`; may be empty.
-  std::vector<Vec3> coarse_sites;
+  TouchingSites coarse;
 };
 
 /// For a closed, connected surface without sizing. Nothing for others and for few vertices; coarse

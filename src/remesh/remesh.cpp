@@ -76,7 +76,7 @@ StartingMesh starting_mesh(const mesh::Surface& surface, Index n, const RemeshOp
     if (options.method == Method::Default)
       first = pipeline::first_mesh(surface, cvt, workers, monitor);
     if (first.tessellation.mesh.vertex_count() > 0) return std::vector<Vec3>{};
-    cvt.start = std::move(first.coarse_sites);
+    cvt.start = std::move(first.coarse);
     return pipeline::optimize_cvt(surface, cvt, workers, monitor);
   });
   if (sites.empty()) return {std::move(first.tessellation), true};

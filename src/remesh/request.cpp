@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kPaperIterations = 40;
 constexpr Index kMostVertices = 100'000'000;  // so that no 32-bit index overflows
-constexpr double kVeryFewVertices = 3000, kFewVertices = 5500;
+constexpr double kVeryFewVertices = 3000, kFewVertices = 5500, kManyVertices = 10000;
+constexpr double kToleranceOfBalanced = 1e-3;
 
 double bounding_box_diagonal(const TriangleMesh& mesh) {
   Vec3 low = mesh.vertices.front();
@@ -136,12 +137,16 @@ int paper_iterations(const RemeshOptions& options) {
 CvtOptions cvt_options(const RemeshOptions& options, Index n) {
   CvtOptions result{.sites = n, .seed = options.seed};
   if (options.method == Method::Default) {
-    // On small meshes longer descents cost little, and limbs of few vertices need them.
+    // On small meshes longer descents cost little, and limbs of few vertices need them. Of others
+    // refinement does the rest at less cost, but for large ones: those are asked for on surfaces
+    // that leave no shape to spare.
     const double small = std::clamp((kFewVertices - n) / (kFewVertices - kVeryFewVertices), 0., 1.);
     result.tolerance *= 1 - 0.75 * small;
     result.coarse_tolerance *= 1 - 0.8 * small;
     result.iterations += static_cast<int>(220 * small);
     result.coarse_iterations += static_cast<int>(120 * small);
+    result.balanced = n > kFewVertices;
+    if (result.balanced && n <= kManyVertices) result.tolerance = kToleranceOfBalanced;
     return result;
   }
   result.iterations = paper_iterations(options) + 1;  // evaluations: the start is one

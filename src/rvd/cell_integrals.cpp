@@ -346,29 +346,68 @@ void CellEvaluator::sum_chunks(std::span<const Vec3> sites, CellIntegrals& out) 
   }
 }
 
+std::vector<CellPart> CellEvaluator::parts_of(std::span<const char> wanted) const {
+  std::vector<CellPart> parts;
+  std::vector<CornerDistances> distances;
+  std::vector<Moments> moments;
+  FacetClipper clipper;
+  for (const auto& chunk : chunks_) {
+    for (Index p = chunk->begin; p < chunk->end; ++p) {
+      const Index* list = chunk->entries.data() + chunk->start[p - chunk->begin];
+      const Index count = chunk->start[p - chunk->begin + 1] - chunk->start[p - chunk->begin];
+      const auto site = [&](Index k) { return chunk->table[list[k]]; };
+      bool any = false;
+      for (Index k = 0; k < count; ++k) any |= wanted[site(k)] != 0;
+      if (!any) continue;
+      const std::array<Vec3, 3> v = pieces_.corners_of(p);
+      distances.resize(count);
+      moments.resize(count);
+      for (Index k = 0; k < count; ++k)
+        for (int c = 0; c < 3; ++c) distances[k][c] = squared_distance(v[c], previous_[site(k)]);
+      for (const Index k : clipper.clip(distances, moments)) {
+        const Moments& m = moments[k];
+        const double share = m[0] + m[1] + m[2];
+        if (wanted[site(k)] != 0 && share > 0)
+          parts.push_back({site(k), pieces_.area[p] * share,
+                           (m[0] * v[0] + m[1] * v[1] + m[2] * v[2]) / share});
+      }
+    }
+  }
+  return parts;
+}
+
 std::vector<std::array<Index, 2>> CellEvaluator::adjacent_cells() const {
+  std::vector<std::vector<std::array<Index, 2>>> of_chunk(chunks_.size());
+  workers_.for_each(chunks_.size(), 1,
+                    [&](std::size_t c) { of_chunk[c] = adjacent_cells(*chunks_[c]); });
+  std::vector<std::array<Index, 2>> all;
+  for (const auto& pairs : of_chunk) all.insert(all.end(), pairs.begin(), pairs.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+// Pairs of sites whose cells touch inside the chunk, sorted.
+std::vector<std::array<Index, 2>> CellEvaluator::adjacent_cells(const Chunk& chunk) const {
   std::vector<std::array<Index, 2>> all;
   std::vector<std::array<Index, 2>> pairs;
   std::vector<CornerDistances> distances;
   FacetClipper clipper;
-  for (const auto& chunk : chunks_) {
-    for (Index p = chunk->begin; p < chunk->end; ++p) {
-      const Index begin = chunk->start[p - chunk->begin];
-      const Index end = chunk->start[p - chunk->begin + 1];
-      if (end - begin < 2) continue;
-      const std::array<Vec3, 3> v = pieces_.corners_of(p);
-      distances.clear();
-      for (Index e = begin; e < end; ++e) {
-        const Vec3& x = previous_[chunk->table[chunk->entries[e]]];
-        distances.push_back(
-            {squared_distance(v[0], x), squared_distance(v[1], x), squared_distance(v[2], x)});
-      }
-      pairs.clear();
-      clipper.adjacent(distances, pairs);
-      for (const auto& [i, j] : pairs)
-        all.push_back(
-            {chunk->table[chunk->entries[begin + i]], chunk->table[chunk->entries[begin + j]]});
+  for (Index p = chunk.begin; p < chunk.end; ++p) {
+    const Index begin = chunk.start[p - chunk.begin];
+    const Index end = chunk.start[p - chunk.begin + 1];
+    if (end - begin < 2) continue;
+    const std::array<Vec3, 3> v = pieces_.corners_of(p);
+    distances.clear();
+    for (Index e = begin; e < end; ++e) {
+      const Vec3& x = previous_[chunk.table[chunk.entries[e]]];
+      distances.push_back(
+          {squared_distance(v[0], x), squared_distance(v[1], x), squared_distance(v[2], x)});
     }
+    pairs.clear();
+    clipper.adjacent(distances, pairs);
+    for (const auto& [i, j] : pairs)
+      all.push_back({chunk.table[chunk.entries[begin + i]], chunk.table[chunk.entries[begin + j]]});
   }
   for (auto& pair : all) std::sort(pair.begin(), pair.end());
   std::sort(all.begin(), all.end());

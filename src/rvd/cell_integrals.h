@@ -29,6 +29,13 @@ struct CellIntegrals {
   std::vector<double> expected_mass;
 };
 
+/// What a cell has of one piece of a facet.
+struct CellPart {
+  Index site;
+  double mass;
+  Vec3 centroid;
+};
+
 /// Evaluates the cells of moving sites on one surface. A part of the surface at equal distance from
 /// several sites belongs to the lowest index; what is cheap when sites move little (lists are
 /// reused) is exact always. Same bits for any number of threads. Not thread-safe; parallel inside.
@@ -46,6 +53,10 @@ class CellEvaluator {
   /// Pairs i < j of sites whose cells met along a curve in the last evaluation: the edges of the
   /// restricted Delaunay triangulation, without the care for ties of the exact engine. Sorted.
   [[nodiscard]] std::vector<std::array<Index, 2>> adjacent_cells() const;
+
+  /// The parts of the pieces of facets that belong to the sites marked in `wanted` (#X) after the
+  /// last evaluation, piece by piece. For uniform density.
+  [[nodiscard]] std::vector<CellPart> parts_of(std::span<const char> wanted) const;
 
   /// Forgets all lists: the next evaluation starts from scratch.
   void reset();
@@ -69,6 +80,7 @@ class CellEvaluator {
   void integrate(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void integrate_weighted(Chunk& chunk, std::span<const Vec3> sites, Scratch& scratch) const;
   void sum_chunks(std::span<const Vec3> sites, CellIntegrals& out) const;
+  [[nodiscard]] std::vector<std::array<Index, 2>> adjacent_cells(const Chunk& chunk) const;
 
   const parallel::Workers& workers_;
   Index site_count_;

@@ -33,6 +33,8 @@ void FacetClipper::make_part(std::span<const CornerDistances> d, Index i) {
     next_.resize(most);
     edge_.resize(most);
     next_edge_.resize(most);
+    g_.resize(most);
+    in_.resize(most);
   }
   polygon_[0] = {0, 0};
   polygon_[1] = {1, 0};
@@ -44,31 +46,42 @@ void FacetClipper::make_part(std::span<const CornerDistances> d, Index i) {
     const double g0 = d[j][0] - d[i][0];
     const double gu = (d[j][1] - d[i][1]) - g0;
     const double gv = (d[j][2] - d[i][2]) - g0;
-    const auto inside = [lower = j < i](double g) { return lower ? g > 0 : g >= 0; };
-    std::size_t kept = 0;
-    double g_a = g0 + gu * polygon_[0].u + gv * polygon_[0].v;
+    const bool open = j < i;
+    std::size_t inside = 0;
     for (std::size_t a = 0; a < size_; ++a) {
-      const Corner pa = polygon_[a];
-      const Corner pb = polygon_[a + 1 == size_ ? 0 : a + 1];
-      const double g_b = g0 + gu * pb.u + gv * pb.v;
-      const bool in_a = inside(g_a);
-      if (in_a) {
-        if constexpr (Tagged) next_edge_[kept] = edge_[a];
-        next_[kept++] = pa;
-      }
-      if (in_a != inside(g_b)) {
-        const double t = g_a / (g_a - g_b);
-        // Leaving the half-plane the bisector begins; entering it the old edge goes on.
-        if constexpr (Tagged) next_edge_[kept] = in_a ? j : edge_[a];
-        next_[kept++] = {pa.u + t * (pb.u - pa.u), pa.v + t * (pb.v - pa.v)};
-      }
-      g_a = g_b;
+      const double g = g0 + gu * polygon_[a].u + gv * polygon_[a].v;
+      g_[a] = g;
+      in_[a] = static_cast<char>(open ? g > 0 : g >= 0);
+      inside += static_cast<std::size_t>(in_[a]);
     }
-    polygon_.swap(next_);
-    if constexpr (Tagged) edge_.swap(next_edge_);
-    size_ = kept < 3 ? 0 : kept;
+    if (inside == size_) continue;
+    size_ = inside == 0 ? 0 : cut_polygon<Tagged>(j);
     if (size_ == 0) return;
   }
+}
+
+// Keeps what lies inside by `g_` and `in_`; returns how many corners.
+template <bool Tagged>
+std::size_t FacetClipper::cut_polygon(Index j) {
+  std::size_t kept = 0;
+  for (std::size_t a = 0; a < size_; ++a) {
+    const std::size_t b = a + 1 == size_ ? 0 : a + 1;
+    const Corner pa = polygon_[a];
+    if (in_[a] != 0) {
+      if constexpr (Tagged) next_edge_[kept] = edge_[a];
+      next_[kept++] = pa;
+    }
+    if (in_[a] != in_[b]) {
+      const Corner pb = polygon_[b];
+      const double t = g_[a] / (g_[a] - g_[b]);
+      // Leaving the half-plane the bisector begins; entering it the old edge goes on.
+      if constexpr (Tagged) next_edge_[kept] = in_[a] != 0 ? j : edge_[a];
+      next_[kept++] = {pa.u + t * (pb.u - pa.u), pa.v + t * (pb.v - pa.v)};
+    }
+  }
+  polygon_.swap(next_);
+  if constexpr (Tagged) edge_.swap(next_edge_);
+  return kept < 3 ? 0 : kept;
 }
 
 Moments FacetClipper::polygon_moments() const {

@@ -76,12 +76,16 @@ class FacetClipper {
   void keep_possible_owners(std::span<const CornerDistances> d);
   template <bool Tagged>
   void make_part(std::span<const CornerDistances> d, Index i);
+  template <bool Tagged>
+  std::size_t cut_polygon(Index j);
   [[nodiscard]] Moments polygon_moments() const;
   [[nodiscard]] Moments polygon_moments(const std::array<double, 3>& rho) const;
 
   std::vector<Index> alive_;
   std::size_t size_ = 0;  // corners of the polygon
   std::vector<Corner> polygon_, next_;
+  std::vector<double> g_;                // of each corner, positive on the side that is kept
+  std::vector<char> in_;                 // whether it is kept
   std::vector<Index> edge_, next_edge_;  // site across the edge that starts at each corner, or -1
 };
 

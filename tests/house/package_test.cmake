@@ -19,9 +19,15 @@ if(way STREQUAL "find_package")
   step(${CMAKE_COMMAND} --install ${build} --prefix ${scratch}/prefix)
   list(APPEND arguments -D CMAKE_PREFIX_PATH=${scratch}/prefix -D CMAKE_BUILD_TYPE=Release)
 else()
-  # Without optimisation: the whole library is compiled again, only to see that it is found.
-  list(APPEND arguments -D NONOBTUSE_SOURCE=${source} -D CMAKE_BUILD_TYPE=Debug
-    -D CMAKE_CXX_FLAGS_DEBUG=-O0)
+  # The whole library is compiled again, only to see that it is found: out of the compiler cache
+  # with the options of the presets, without optimisation where there is no cache.
+  list(APPEND arguments -D NONOBTUSE_SOURCE=${source})
+  if(launcher)
+    list(APPEND arguments -D CMAKE_BUILD_TYPE=Release "-D CMAKE_CXX_FLAGS_RELEASE=-O3 -DNDEBUG"
+      -D NONOBTUSE_WERROR=ON)
+  else()
+    list(APPEND arguments -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG=-O0)
+  endif()
 endif()
 step(${CMAKE_COMMAND} -S ${source}/tests/house/consumer -B ${scratch}/build ${arguments})
 step(${CMAKE_COMMAND} --build ${scratch}/build --target consumer)

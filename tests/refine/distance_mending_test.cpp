@@ -145,7 +145,7 @@ TEST(MinimaxRelaxation, LowersTheLargestDistance) {
     const std::array<Index, 1> center{100};
     const refine::Patch patch(s.made.mesh, s.fidelity, center, 3);
     const double before = refine::largest_distance(patch.mesh, patch.fidelity, options.far);
-    refine::MinimaxRelaxation relaxation(patch, options, before);
+    refine::MinimaxRelaxation relaxation(patch, options, refine::score(patch, options));
     EXPECT_FALSE(relaxation.best);
     relaxation.run(10);
     ASSERT_TRUE(relaxation.best);

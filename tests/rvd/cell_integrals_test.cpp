@@ -194,5 +194,30 @@ TEST(FacetClipping, PartsOfManySitesFillTheTriangle) {
   }
 }
 
+TEST(CellIntegrals, PartsAddUpToTheirCells) {
+  const mesh::Surface sphere = test::octasphere(3);
+  const std::vector<Vec3> sites = test::random_sites(sphere, 60, 5);
+  const parallel::Workers workers(1);
+  CellEvaluator evaluator(sphere, static_cast<Index>(sites.size()), workers);
+  CellIntegrals cells;
+  evaluator.evaluate(sites, cells);
+  std::vector<char> wanted(sites.size(), 0);
+  for (std::size_t i = 0; i < sites.size(); i += 3) wanted[i] = 1;
+  std::vector<double> mass(sites.size(), 0);
+  std::vector<Vec3> moment(sites.size());
+  for (const CellPart& part : evaluator.parts_of(wanted)) {
+    mass[part.site] += part.mass;
+    moment[part.site] += part.mass * part.centroid;
+  }
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (wanted[i] == 0) {
+      EXPECT_EQ(mass[i], 0);
+      continue;
+    }
+    EXPECT_NEAR(mass[i], cells.mass[i], 1e-12);
+    EXPECT_LT(distance(moment[i], cells.mass[i] * cells.centroid[i]), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace nonobtuse::rvd
