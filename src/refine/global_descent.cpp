@@ -10,6 +10,9 @@ namespace {
 constexpr std::size_t kChunk = 512;
 constexpr double kLongestStep = 0.3;  // of a vertex of size 1, where the ideal edge is 1.07 long
 constexpr int kHalvings = 6;
+// Shape energy from which a triangle beside curves counts as collapsed: at an angle of a quarter of
+// a degree. A good one has about one.
+constexpr double kCollapsed = 1e4;
 constexpr double kKnotSpacing = 0.25;  // least distance of knots along a curve, where the size is 1
 
 // Tangential stiffness of a triangle's shape energy.
@@ -47,6 +50,7 @@ void GlobalDescent::freeze() {
     for (int k = 0; k < 3; ++k) corner_[fill[mesh_.triangle(t)[k]]++] = 3 * t + k;
   fixed_.resize(vertices);
   const bool knots = !fidelity_.knots.empty();
+  collapsed_.assign(triangles, 0);
   for (Index v = 0; v < vertices; ++v)
     fixed_[v] = mesh_.on_boundary(v) || (knots && mesh_.knot[v] >= 0);
 
@@ -57,6 +61,7 @@ void GlobalDescent::freeze() {
     const std::array<Vec3, 3> p = corners(mesh_, t);
     const double area = fidelity_.size.area(mesh_.triangle(t));
     const double unit = std::sqrt(area);
+    collapsed_[t] = knots && !(fidelity_.size.shape(mesh_.triangle(t), p, shape) < kCollapsed);
     const double stiffness =
         fidelity_.size.uniform()
             ? shape_stiffness(p, shape)
@@ -128,7 +133,10 @@ double GlobalDescent::evaluate(std::vector<Vec3>& gradient) {
         for (std::size_t i = begin; i < end; ++i) {
           const Index t = static_cast<Index>(i);
           const std::array<Vec3, 3> p = corners(mesh_, t);
-          sum += fidelity_.size.shape(mesh_.triangle(t), p, shape, corner_gradient_[i]);
+          if (collapsed_[i] != 0)
+            corner_gradient_[i] = {};
+          else
+            sum += fidelity_.size.shape(mesh_.triangle(t), p, shape, corner_gradient_[i]);
           sum += fidelity_.triangle(t, p, &corner_gradient_[i]);
         }
         return sum;

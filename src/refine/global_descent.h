@@ -56,6 +56,7 @@ class GlobalDescent {
   std::vector<Block> blocks_;
   std::vector<Index> corner_start_, corner_;  // vertex -> 3 t + k
   std::vector<char> fixed_;
+  std::vector<char> collapsed_;  // triangles left to local steps: they would hold up all others
   std::vector<Index> sliding_;  // knots
   std::vector<double> arc_origin_;
   std::vector<std::array<Vec3, 3>> corner_gradient_;

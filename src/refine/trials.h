@@ -1,6 +1,7 @@
 // Trying sequences of edits on copies of a patch: edit, relax, compare.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -22,6 +23,10 @@ class TrialBudget {
   [[nodiscard]] bool exhausted() const { return left_ <= 0; }
 
   std::vector<Triangle> resisting;  ///< vertices of triangles that nothing helped, sorted
+  /// Where balance_count makes up for a vertex more (0) and one less (1): places not tried yet, the
+  /// best last, so that none is searched for, or tried in vain, again and again. Without: the whole
+  /// mesh is searched every time.
+  std::optional<std::array<std::vector<Index>, 2>> places;
 
  private:
   std::int64_t left_;

@@ -15,8 +15,9 @@ constexpr int kPasses = 6;
 // of a crumpled one resists, more would take minutes and mend nothing.
 constexpr Index kDearAttempts = 100;
 constexpr Index kVerticesPerAttempt = 20;
-constexpr double kFlat = 0.98;  // length of a ring's summed normal over its area
-constexpr int kPlaces = 24;     // tried to balance the count
+constexpr double kFlat = 0.98;         // length of a ring's summed normal over its area
+constexpr int kPlaces = 24;            // tried to balance the count
+constexpr Index kPerRemembered = 100;  // vertices of the mesh
 
 struct Effort {
   int rings, flips;
@@ -110,13 +111,18 @@ class Mender {
   const parallel::Workers& workers_;
 };
 
+bool is_place(const mesh::EditableMesh& mesh, Index v, int net) {
+  if (!mesh.alive_vertex(v) || mesh.on_boundary(v)) return false;
+  const int valence = mesh.valence(v);
+  return net < 0 ? valence <= 5 : valence >= 6;
+}
+
 // Vertices by how crowded (net < 0) or roomy (net > 0) their ring is, the best places first.
-std::vector<Index> places(const mesh::EditableMesh& mesh, const Fidelity& fidelity, int net) {
+std::vector<Index> best_places(const mesh::EditableMesh& mesh, const Fidelity& fidelity, int net,
+                               std::size_t most) {
   std::vector<std::pair<double, Index>> ranked;
   for (Index v = 0; v < mesh.vertex_capacity(); ++v) {
-    if (!mesh.alive_vertex(v) || mesh.on_boundary(v)) continue;
-    const int valence = mesh.valence(v);
-    if (net < 0 ? valence > 5 : valence < 6) continue;
+    if (!is_place(mesh, v, net)) continue;
     double area = 0;
     Vec3 sum;
     for_ring(mesh, v, [&](Index t, int) {
@@ -128,13 +134,44 @@ std::vector<Index> places(const mesh::EditableMesh& mesh, const Fidelity& fideli
     area /= fidelity.size.at(v) * fidelity.size.at(v);
     ranked.emplace_back(net < 0 ? area : -area, v);
   }
-  const std::size_t count = std::min<std::size_t>(ranked.size(), kPlaces);
+  const std::size_t count = std::min(ranked.size(), most);
   std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count),
                     ranked.end());
   std::vector<Index> best;
   for (std::size_t i = 0; i < count; ++i) best.push_back(ranked[i].second);
   return best;
 }
+
+// Places to try, the best first. A budget that remembers them looks at the whole mesh only when
+// all that were found have been tried, whether these helped or not.
+class Places {
+ public:
+  Places(const mesh::EditableMesh& mesh, const Fidelity& fidelity, int net, TrialBudget* budget)
+      : mesh_(mesh), net_(net) {
+    const bool remember = budget && budget->places;
+    if (remember) queue_ = &(*budget->places)[net < 0 ? 0 : 1];
+    if (!queue_->empty()) return;
+    const auto more = remember ? static_cast<std::size_t>(mesh.vertex_count() / kPerRemembered) : 0;
+    *queue_ = best_places(mesh, fidelity, net, kPlaces + more);
+    std::reverse(queue_->begin(), queue_->end());
+  }
+
+  // -1: none is left.
+  Index next() {
+    while (!queue_->empty()) {
+      const Index v = queue_->back();
+      queue_->pop_back();
+      if (is_place(mesh_, v, net_)) return v;
+    }
+    return -1;
+  }
+
+ private:
+  const mesh::EditableMesh& mesh_;
+  int net_;
+  std::vector<Index> own_;
+  std::vector<Index>* queue_ = &own_;
+};
 
 }  // namespace
 
@@ -169,7 +206,10 @@ void ensure_planes(const mesh::EditableMesh& mesh, Fidelity& fidelity, Index cen
 bool balance_count(mesh::EditableMesh& mesh, Fidelity& fidelity, int net,
                    const TrialOptions& options, const parallel::Workers& workers,
                    std::vector<Index>* touched) {
-  for (Index v : places(mesh, fidelity, net)) {
+  Places places(mesh, fidelity, net, options.budget);
+  for (int attempt = 0; attempt < kPlaces; ++attempt) {
+    const Index v = places.next();
+    if (v < 0) break;
     ensure_planes(mesh, fidelity, v, 4);
     const std::array<Index, 1> center{v};
     const Patch patch(mesh, fidelity, center, 3);

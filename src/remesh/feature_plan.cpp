@@ -53,26 +53,50 @@ features::CutSurface patches_of(const mesh::Surface& surface, const features::Ed
   return features::cut_open(plain);
 }
 
-std::vector<features::PatchDemand> patch_demands(const mesh::Surface& cut,
-                                                 const Components& patches) {
-  std::vector<features::PatchDemand> demands(patches.count());
-  std::vector<std::vector<Index>> facets(patches.count());
-  for (Index f = 0; f < static_cast<Index>(cut.triangles.size()); ++f)
-    facets[patches.of_triangle[f]].push_back(f);
-  for (Index p = 0; p < patches.count(); ++p) {
-    demands[p].area = cut.size.empty()
-                          ? patches.area[p]
-                          : 0.5 * std::sqrt(3.0) * sizing::vertices_for(cut, cut.size, facets[p]);
-    demands[p].euler = patches.euler[p];
+// The patches between the curves of a surface, whatever the sizes on it.
+struct PatchLayout {
+  Components patches;
+  std::vector<std::vector<Index>> facets;         // of each patch
+  std::vector<std::vector<Index>> curve_patches;  // of each curve, one entry per side
+
+  PatchLayout(const mesh::Surface& surface, const features::EdgeFlags& flags,
+              const features::FeatureGraph& graph)
+      : patches(connected_components(patches_of(surface, flags).surface)),
+        facets(patches.count()),
+        curve_patches(graph.curves.size()) {
+    for (Index f = 0; f < static_cast<Index>(surface.triangles.size()); ++f)
+      facets[patches.of_triangle[f]].push_back(f);
+    const std::vector<mesh::EdgeSide> sides =
+        mesh::edge_sides(surface.triangles, static_cast<Index>(surface.vertices.size()));
+    for (std::size_t c = 0; c < graph.curves.size(); ++c) {
+      const std::vector<Index>& v = graph.curves[c].vertices;
+      const auto edge = std::minmax({v[0], v[1]});
+      auto side = std::lower_bound(sides.begin(), sides.end(), edge,
+                                   [](const mesh::EdgeSide& s, const std::pair<Index, Index>& e) {
+                                     return std::pair(s.low, s.high) < e;
+                                   });
+      for (; side != sides.end() && std::pair(side->low, side->high) == edge; ++side)
+        curve_patches[c].push_back(patches.of_triangle[side->triangle]);
+    }
+  }
+};
+
+std::vector<features::PatchDemand> patch_demands(const mesh::Surface& surface,
+                                                 const PatchLayout& layout) {
+  std::vector<features::PatchDemand> demands(layout.patches.count());
+  for (Index p = 0; p < layout.patches.count(); ++p) {
+    demands[p].area =
+        surface.size.empty()
+            ? layout.patches.area[p]
+            : 0.5 * std::sqrt(3.0) * sizing::vertices_for(surface, surface.size, layout.facets[p]);
+    demands[p].euler = layout.patches.euler[p];
   }
   return demands;
 }
 
-std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan, const Components& patches,
+std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan, const PatchLayout& layout,
                                                  const std::vector<features::FirstEdge>& single) {
   const mesh::Surface& surface = plan.surface;
-  const std::vector<mesh::EdgeSide> sides =
-      mesh::edge_sides(surface.triangles, static_cast<Index>(surface.vertices.size()));
   std::map<std::pair<Index, Index>, int> between;  // curves with the same ends
   std::vector<Index> degree(surface.vertices.size(), 0);
   for (const features::FeatureCurve& c : plan.graph.curves)
@@ -98,13 +122,7 @@ std::vector<features::CurveDemand> curve_demands(const FeaturePlan& plan, const 
           return !curve.closed && ends == std::minmax({e.corner, e.end});
         }))
       d.fixed = 1;
-    const auto edge = std::minmax({curve.vertices[0], curve.vertices[1]});
-    auto side = std::lower_bound(sides.begin(), sides.end(), edge,
-                                 [](const mesh::EdgeSide& s, const std::pair<Index, Index>& e) {
-                                   return std::pair(s.low, s.high) < e;
-                                 });
-    for (; side != sides.end() && std::pair(side->low, side->high) == edge; ++side)
-      d.patches.push_back(patches.of_triangle[side->triangle]);
+    d.patches = layout.curve_patches[c];
     demands.push_back(std::move(d));
   }
   return demands;
@@ -172,6 +190,7 @@ class Planner {
 
   // Curves and corners of the flags; false if there are none.
   bool find_curves() {
+    layout_.reset();
     features::prune_creases(plan_.surface, kShortestCrease * kEdgeLength, plan_.flags);
     plan_.graph = features::feature_graph(plan_.surface, plan_.flags, {});
     if (plan_.graph.curves.empty() && points_.empty()) return false;
@@ -247,10 +266,9 @@ class Planner {
   }
 
   void balance() {
-    const features::CutSurface cut = patches_of(plan_.surface, plan_.flags);
-    const Components patches = connected_components(cut.surface);
-    plan_.balance = features::balance_vertices(curve_demands(plan_, patches, first_edges_),
-                                               patch_demands(cut.surface, patches),
+    if (!layout_) layout_.emplace(plan_.surface, plan_.flags, plan_.graph);
+    plan_.balance = features::balance_vertices(curve_demands(plan_, *layout_, first_edges_),
+                                               patch_demands(plan_.surface, *layout_),
                                                plan_.graph.corner_count(), vertices_);
   }
 
@@ -279,6 +297,7 @@ class Planner {
     plan_.surface = std::move(fine.surface);
     plan_.flags = std::move(fine.flags);
     plan_.graph = std::move(graph);
+    layout_.reset();
     find_frozen();
     // The bounds are lengths and stay; the rest grows until the whole asks for the right number.
     double h = kEdgeLength;
@@ -366,6 +385,7 @@ class Planner {
   const std::vector<Index>& points_;
   const std::vector<FinePlace>& places_;
   FeaturePlan plan_;
+  std::optional<PatchLayout> layout_;  // of the plan's surface and flags, if it was asked for
   std::vector<features::FirstEdge> first_edges_;  // of narrow corners
   bool frugal_ = false;
 };

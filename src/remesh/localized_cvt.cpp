@@ -20,6 +20,8 @@ constexpr int kStepsIfValid = 15;   // enough for sites that left the other shee
 constexpr int kStepsIfFew = 3;      // where less than one cell in a thousand reaches through
 constexpr int kStepsPerRepair = 4;  // between two relocations
 constexpr int kPatience = 12;       // steps without fewer defects: repairs chase each other
+constexpr std::size_t kCellsPerDefect = 100;  // fewer: the surface is crumpled everywhere
+constexpr std::size_t kManySites = 10000;     // every step takes seconds
 constexpr double kRelaxation = 1.5;
 
 void lloyd_step(const mesh::Surface& surface, const SiteCells& cells, const rvd::CellSums& sums,
@@ -157,14 +159,20 @@ void localize_sites(const mesh::Surface& surface, std::vector<Vec3>& sites, Site
   for (int step = 0; step < kMostSteps && step < fewest_at + kPatience; ++step) {
     if (!monitor.tick(0.8 * step / kMostSteps)) return;
     const rvd::CellSums sums = rvd::cell_sums(surface, sites, cells.diagram, cells.localized.owner);
+    bool relocated = false;
     if (!revive_empty_cells(surface, cells, sums, fixed, sites)) {
       if (!cells.defects.empty() && step % kStepsPerRepair == kStepsPerRepair - 1) {
         relocate(surface, cells, sums, fixed, sites);
+        relocated = true;
       } else {
         lloyd_step(surface, cells, sums, fixed, sites);
       }
     }
     cells = site_cells(surface, sites, workers);
+    // On a large crumpled patch repairs only chase each other.
+    if (!fixed.empty() && sites.size() > kManySites && relocated &&
+        cells.defects.size() >= fewest && cells.defects.size() * kCellsPerDefect > sites.size())
+      return;
     if (cells.defects.size() < fewest) {
       fewest = cells.defects.size();
       fewest_at = step + 1;

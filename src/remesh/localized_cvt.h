@@ -29,9 +29,10 @@ SiteCells site_cells(const mesh::Surface& surface, const std::vector<Vec3>& site
 /// Over-relaxed Lloyd steps with localized cells; sites slide on the facets of their own cell and
 /// so never jump to another sheet. Every few steps the sites that matter least move to where cells
 /// are not discs (closed-ball repair at a constant number of sites). Stops as soon as the dual is
-/// valid and no cell reaches through any more, or when repairs bring nothing more, or cancelled.
-/// `cells` must be those of `sites`, and is so afterwards. Sites marked in `fixed` (#X, or empty)
-/// stay where they are.
+/// valid and no cell reaches through any more, or when repairs bring nothing more, or cancelled;
+/// with `fixed` also as soon as a repair brings nothing on a large patch that is crumpled
+/// everywhere. `cells` must be those of `sites`, and is so afterwards. Sites marked in `fixed` (#X,
+/// or empty) stay where they are.
 void localize_sites(const mesh::Surface& surface, std::vector<Vec3>& sites, SiteCells& cells,
                     const parallel::Workers& workers, parallel::Monitor& monitor,
                     std::span<const char> fixed = {});

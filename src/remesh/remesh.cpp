@@ -141,51 +141,130 @@ bool remesh_featured(const pipeline::Part& part, const pipeline::FeaturePlan& pl
   return false;
 }
 
-// All parts with the vertices they were given; a part that needs more says so in `least`, and the
-// result is then incomplete. All are planned before any is meshed, since that is much cheaper.
-bool remesh_parts(std::vector<pipeline::Part>& parts, const std::vector<Index>& vertices,
-                  const RemeshOptions& options, const parallel::Workers& workers,
-                  pipeline::StageClock& clock, RemeshResult& result) {
-  bool complete = true;
-  const auto ask = [&](std::size_t c, const auto& step) {
-    try {
-      step();
-    } catch (const TooFewVertices& too_few) {
-      parts[c].least = std::max(too_few.least(), vertices[c] + 1);
-      complete = false;
-    }
-  };
-  std::vector<std::optional<pipeline::FeaturePlan>> plans(parts.size());
-  clock.begin_part(0, 0.01);
-  const auto featured = [](const pipeline::Part& p) { return !p.features.empty(); };
-  if (std::any_of(parts.begin(), parts.end(), featured))
-    clock.run("features", 0, 1, [&] {
-      for (std::size_t c = 0; c < parts.size(); ++c)
-        ask(c, [&] { plans[c] = plan_part(parts[c], vertices[c], options, result); });
-    });
-  if (!complete) return false;
+// What a part became with the vertices it was given; kept while other parts ask for more.
+struct PartResult {
+  Index planned = -1;  // for this many vertices
+  std::optional<pipeline::FeaturePlan> plan;
+  Index meshed = -1;  // with this many vertices
+  RemeshResult result;
+};
 
-  const Index n = std::accumulate(vertices.begin(), vertices.end(), Index{0});
-  double done = 0.01;
-  for (std::size_t c = 0; c < parts.size(); ++c) {
-    const double share = 0.96 * vertices[c] / n;
-    clock.begin_part(done, done + share);
-    done += share;
-    ask(c, [&] {
-      if (plans[c] &&
-          remesh_featured(parts[c], *plans[c], vertices[c], options, workers, clock, result))
-        return;
-      plans[c].reset();
-      pipeline::NormalizedInput input = pipeline::normalize(parts[c].mesh, vertices[c]);
-      pipeline::set_sizes(parts[c].length, input);
+void append_result(RemeshResult part, RemeshResult& whole) {
+  const auto shift = static_cast<Index>(whole.mesh.vertices.size());
+  const auto append = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(part.mesh.vertices, whole.mesh.vertices);
+  append(part.source_triangle, whole.source_triangle);
+  append(part.barycentric, whole.barycentric);
+  for (const Triangle& t : part.mesh.triangles)
+    whole.mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  for (const std::array<Index, 2>& e : part.feature_edges)
+    whole.feature_edges.push_back({e[0] + shift, e[1] + shift});
+  for (NarrowCorner corner : part.narrow_corners) {
+    corner.vertex += shift;
+    whole.narrow_corners.push_back(corner);
+  }
+  whole.parts_without_features += part.parts_without_features;
+  whole.creases_given_up += part.creases_given_up;
+}
+
+// All parts with the vertices they were given. Small parts come first: one that needs more says so
+// in its `least`, and those that give them, the large parts, wait until all others have enough.
+class PartsRemesher {
+ public:
+  PartsRemesher(std::vector<pipeline::Part>& parts, const RemeshOptions& options,
+                const parallel::Workers& workers, pipeline::StageClock& clock)
+      : parts_(parts),
+        options_(options),
+        workers_(workers),
+        clock_(clock),
+        results_(parts.size()) {}
+
+  // False if a part needs more.
+  bool run(const std::vector<Index>& vertices) {
+    whole_ = std::accumulate(vertices.begin(), vertices.end(), Index{0});
+    done_ = 0;
+    std::vector<std::size_t> small, large;
+    for (std::size_t c = 0; c < parts_.size(); ++c)
+      (vertices[c] > kLargePart * whole_ ? large : small).push_back(c);
+    return run(small, vertices) && run(large, vertices);
+  }
+
+  // Of all parts, in their order.
+  RemeshResult take() {
+    if (results_.size() == 1) return std::move(results_.front().result);
+    RemeshResult whole;
+    for (PartResult& part : results_) append_result(std::move(part.result), whole);
+    return whole;
+  }
+
+ private:
+  // All are planned before any is meshed, since that is much cheaper.
+  bool run(const std::vector<std::size_t>& some, const std::vector<Index>& vertices) {
+    const auto featured = [&](std::size_t c) { return !parts_[c].features.empty(); };
+    bool enough = true;
+    const auto ask = [&](std::size_t c, const auto& step) {
+      try {
+        step(c, vertices[c]);
+      } catch (const TooFewVertices& too_few) {
+        parts_[c].least = std::max(too_few.least(), vertices[c] + 1);
+        enough = false;
+      }
+    };
+    begin(0.01);
+    if (std::any_of(some.begin(), some.end(), featured))
+      clock_.run("features", 0, 1, [&] {
+        for (const std::size_t c : some) ask(c, [&](std::size_t p, Index n) { plan(p, n); });
+      });
+    if (!enough) return false;
+    for (const std::size_t c : some) {
+      begin(0.95 * vertices[c] / whole_);
+      ask(c, [&](std::size_t p, Index n) { mesh(p, n); });
+    }
+    return enough;
+  }
+
+  void begin(double share) {
+    clock_.begin_part(done_, done_ + share);
+    done_ += share;
+  }
+
+  void plan(std::size_t c, Index n) {
+    PartResult& part = results_[c];
+    if (part.planned == n) return;
+    part = {};
+    part.plan = plan_part(parts_[c], n, options_, part.result);
+    part.planned = n;
+  }
+
+  void mesh(std::size_t c, Index n) {
+    PartResult& part = results_[c];
+    if (part.meshed == n) return;
+    if (!part.plan ||
+        !remesh_featured(parts_[c], *part.plan, n, options_, workers_, clock_, part.result)) {
+      part.plan.reset();
+      pipeline::NormalizedInput input = pipeline::normalize(parts_[c].mesh, n);
+      pipeline::set_sizes(parts_[c].length, input);
       spatial::TriangleBvh bvh;
       const mesh::EditableMesh mesh =
-          remesh_part(input.surface, bvh, vertices[c], options, workers, clock);
-      if (complete) pipeline::append_part(parts[c], input, bvh, mesh, workers, result);
-    });
+          remesh_part(input.surface, bvh, n, options_, workers_, clock_);
+      pipeline::append_part(parts_[c], input, bvh, mesh, workers_, part.result);
+    }
+    part.plan.reset();
+    part.meshed = n;
   }
-  return complete;
-}
+
+  static constexpr double kLargePart = 0.1;  // of all vertices
+
+  std::vector<pipeline::Part>& parts_;
+  const RemeshOptions& options_;
+  const parallel::Workers& workers_;
+  pipeline::StageClock& clock_;
+  std::vector<PartResult> results_;
+  Index whole_ = 0;  // vertices
+  double done_ = 0;
+};
 
 // Sets `least` of every part to a number of vertices that was tried and does.
 void find_least_vertices(std::vector<pipeline::Part>& parts, const RemeshOptions& options,
@@ -236,7 +315,7 @@ RemeshResult remesh_unbounded(const TriangleMesh& input, const RemeshOptions& op
   // there are no more to take.
   std::vector<pipeline::Part> parts = pipeline::connected_parts(input, field.length);
   pipeline::find_features(input, options, parts);
-  RemeshResult result;
+  PartsRemesher remesher(parts, options, workers, clock);
   bool searched = false;
   do {
     if (pipeline::least_vertices(parts) > field.vertices) {
@@ -244,9 +323,8 @@ RemeshResult remesh_unbounded(const TriangleMesh& input, const RemeshOptions& op
       searched = true;
       require_vertices(parts, field.vertices);
     }
-    result = {};
-  } while (!remesh_parts(parts, pipeline::share_vertices(parts, field.vertices), options, workers,
-                         clock, result));
+  } while (!remesher.run(pipeline::share_vertices(parts, field.vertices)));
+  RemeshResult result = remesher.take();
 
   clock.begin_part(0, 1);
   clock.run("certification", 0.97, 1, [&] { pipeline::certify_result(options, result); });

@@ -3,6 +3,7 @@
 // edits is kept if it lowers the defect and the relaxed neighbourhood is sound.
 #include "remesh/valence_optimization.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "refine/angle_goal.h"
@@ -15,6 +16,9 @@ constexpr Index kSamplesPerVertex = 3;
 // Budget of the trials beside creases and boundaries.
 constexpr std::int64_t kTrialWork = 40000;
 constexpr std::int64_t kTrialWorkPerVertex = 200;
+// Larger meshes get no more than this many vertices': where so many places resist, they would
+// take minutes and mend few.
+constexpr Index kMostTrialVertices = 10000;
 
 }  // namespace
 
@@ -38,7 +42,9 @@ Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh&
   refine::TrialOptions options;
   options.shape = energy::hinged(10, 35, 86);
   options.goal = {35, 86};
-  refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh.vertex_count());
+  refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex *
+                                              std::min(mesh.vertex_count(), kMostTrialVertices));
+  if (mesh.vertex_count() > kMostTrialVertices) budget.places.emplace();
   if (curves) options.budget = &budget;
   double attempts = 0;
   const Index left = refine::mend_valences(mesh, fidelity, options, false, workers, [&] {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -134,6 +135,24 @@ TEST(Knots, DescentAndRelaxationKeepThemInPlace) {
   refine::relax(mesh, s.fidelity, all, {descent.shape, 3, false}, s.workers);
   s.fidelity.knots.store(s.cut.curves);
   expect_in_place(mesh, s.cut.curves, before);
+}
+
+TEST(Knots, CollapsedTrianglesDoNotHoldUpTheDescent) {
+  CutScene s(test::cut_cube(6, 0.9, 2, 20, bulge));
+  mesh::EditableMesh& mesh = s.cut.made.mesh;
+  Index v = 0;
+  while (mesh.on_boundary(v) || mesh.knot[v] >= 0) ++v;
+  const Index t = mesh.triangle_of(v);
+  const int k = mesh.corner_of(t, v);
+  mesh.positions[v] = refine::midpoint(refine::corners(mesh, t), k);
+  refine::GlobalDescent descent(mesh, s.fidelity, false, s.workers);
+  descent.shape = energy::hinged(10, 42, 78);
+  descent.freeze();
+  std::vector<Vec3> gradient;
+  const double energy = descent.evaluate(gradient);
+  ASSERT_TRUE(std::isfinite(energy));
+  descent.run(10, [] { return true; });
+  EXPECT_LT(descent.evaluate(gradient), 0.9 * energy);
 }
 
 TEST(Knots, RelaxationOfAKnotLowersTheEnergy) {

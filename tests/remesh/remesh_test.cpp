@@ -156,6 +156,26 @@ TEST(Parts, TakeVerticesByAreaButNeverTooFew) {
   EXPECT_EQ(topology.euler_characteristic, 0);  // the small torus still is one
 }
 
+TEST(Parts, ThatNeedMoreTakeThemFromTheLarge) {
+  const TriangleMesh large = shapes::torus(24, 16);
+  // By area a vertex or two would be the boxes' share; each has eight corners.
+  const TriangleMesh input = together(together(moved(shapes::box(2, 2, 2), 0.01, {5, 0, 0}), large),
+                                      moved(shapes::box(2, 2, 2), 0.02, {6, 0, 0}));
+  const RemeshResult result = remesh(input, {.vertices = 300});
+  const Topology topology = measure_topology(result.mesh);
+  EXPECT_EQ(topology.vertices, 300);
+  EXPECT_EQ(topology.components, 3);
+  EXPECT_EQ(topology.euler_characteristic, 4);
+  // A part's mesh depends on its number of vertices alone, whatever the others asked for.
+  const std::vector<Vec3>& all = result.mesh.vertices;
+  const auto in_large = [](const Vec3& p) { return p.x < 4; };
+  const auto count = static_cast<Index>(std::count_if(all.begin(), all.end(), in_large));
+  const auto first = std::find_if(all.begin(), all.end(), in_large);
+  const RemeshResult alone = remesh(large, {.vertices = count});
+  ASSERT_EQ(alone.mesh.vertices.size(), static_cast<std::size_t>(count));
+  EXPECT_TRUE(std::equal(alone.mesh.vertices.begin(), alone.mesh.vertices.end(), first));
+}
+
 TEST(RemeshCall, TooFewVerticesAreRefusedWithTheNumberNeeded) {
   const TriangleMesh input = sample_surface(20);
   try {
