@@ -46,9 +46,7 @@ constexpr double kMendingLeash = 0.2;
 // Budget of the trials beside creases and boundaries.
 constexpr std::int64_t kTrialWork = 40000;
 constexpr std::int64_t kTrialWorkPerVertex = 100;
-// Larger meshes get no more than this many vertices': where so many places resist, they would
-// take minutes and mend few.
-constexpr Index kMostTrialVertices = 10000;
+constexpr Index kManyVertices = 10000;  // whose places are not searched again and again
 
 class Refinement {
  public:
@@ -104,9 +102,8 @@ class Refinement {
     local.shape = energy::hinged(100, lo + 1, hi - 1);
     local.shape.circumcentre = circumcentre_;
     local.on_surface = options_.on_surface;
-    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex *
-                                                std::min(mesh_.vertex_count(), kMostTrialVertices));
-    if (mesh_.vertex_count() > kMostTrialVertices) budget.places.emplace();
+    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh_.vertex_count());
+    if (mesh_.vertex_count() > kManyVertices) budget.places.emplace();
     if (!fidelity_.knots.empty()) local.budget = &budget;
     Index outside = mend_and_sweep(local);
     // Beside creases a second attempt finds a mesh in better order.
@@ -161,9 +158,8 @@ class Refinement {
     if (outside_promise() == 0) return;
     const refine::AngleGoal least{std::min(options_.min_angle, refine::kPromise.smallest + 1),
                                   std::max(options_.max_angle, refine::kPromise.largest - 1)};
-    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 *
-                                                std::min(mesh_.vertex_count(), kMostTrialVertices));
-    if (mesh_.vertex_count() > kMostTrialVertices) budget.places.emplace();
+    refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex / 4 * mesh_.vertex_count());
+    if (mesh_.vertex_count() > kManyVertices) budget.places.emplace();
     refine::sweep_angles(
         mesh_, fidelity_, least, options_.on_surface, workers_,
         [&](double f) { return tick(0.85 + 0.05 * f); }, &budget, circumcentre_);

@@ -3,7 +3,6 @@
 // edits is kept if it lowers the defect and the relaxed neighbourhood is sound.
 #include "remesh/valence_optimization.h"
 
-#include <algorithm>
 #include <cstdint>
 
 #include "refine/angle_goal.h"
@@ -16,9 +15,7 @@ constexpr Index kSamplesPerVertex = 3;
 // Budget of the trials beside creases and boundaries.
 constexpr std::int64_t kTrialWork = 40000;
 constexpr std::int64_t kTrialWorkPerVertex = 200;
-// Larger meshes get no more than this many vertices': where so many places resist, they would
-// take minutes and mend few.
-constexpr Index kMostTrialVertices = 10000;
+constexpr Index kManyVertices = 10000;  // whose places are not searched again and again
 
 }  // namespace
 
@@ -42,9 +39,8 @@ Index optimize_valence(const mesh::Surface& surface, const spatial::TriangleBvh&
   refine::TrialOptions options;
   options.shape = energy::hinged(10, 35, 86);
   options.goal = {35, 86};
-  refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex *
-                                              std::min(mesh.vertex_count(), kMostTrialVertices));
-  if (mesh.vertex_count() > kMostTrialVertices) budget.places.emplace();
+  refine::TrialBudget budget(kTrialWork + kTrialWorkPerVertex * mesh.vertex_count());
+  if (mesh.vertex_count() > kManyVertices) budget.places.emplace();
   if (curves) options.budget = &budget;
   double attempts = 0;
   const Index left = refine::mend_valences(mesh, fidelity, options, false, workers, [&] {
