@@ -145,8 +145,8 @@ CvtOptions cvt_options(const RemeshOptions& options, Index n) {
     result.coarse_tolerance *= 1 - 0.8 * small;
     result.iterations += static_cast<int>(220 * small);
     result.coarse_iterations += static_cast<int>(120 * small);
-    result.balanced = n > kFewVertices;
-    if (result.balanced && n <= kManyVertices) result.tolerance = kToleranceOfBalanced;
+    result.balanced = n > kFewVertices && n < kManyVertices;
+    if (result.balanced) result.tolerance = kToleranceOfBalanced;
     return result;
   }
   result.iterations = paper_iterations(options) + 1;  // evaluations: the start is one
